@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Whole files in and out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lodestone {
+
+// The bytes of a regular file. Throws Error(bad_input) where it cannot be read, is not a regular file, or is
+// larger than `limit` bytes.
+std::vector<std::byte> read_file(const std::filesystem::path& path, uint64_t limit = uint64_t(1) << 34);
+
+// A place beside `path` to write to before `commit_file` renames it: output appears whole or not at all.
+// Missing folders are made. Keeps the extension (image writers choose a format by it).
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+// Renames `temporary` to `path`. Throws Error(machine).
+void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+// Writes beside and renames. Throws Error(machine) where the disk is full or the place cannot be written.
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace lodestone
