@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// The frame: which passes run, in what order, on which buffers. Knows a Backend and nothing of Vulkan or threads.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lodestone/geometry_image/atlas.h"
+#include "lodestone/image/image.h"
+#include "lodestone/render/backend.h"
+#include "lodestone/scene/assembly.h"
+#include "lodestone/scene/pose.h"
+#include "lodestone/scene/scene.h"
+
+namespace lodestone::render {
+
+// `wide` is for the CPU only. `automatic` takes the fastest of the back end.
+enum class Traversal : uint32_t { automatic, threaded, octant, wide };
+enum class ViewTransform : uint32_t { filmic, linear };
+
+struct Settings {
+  uint32_t width = 512, height = 512;
+  uint32_t spp = 1;
+  uint32_t seed = 0;
+  Traversal traversal = Traversal::automatic;
+  ViewTransform view = ViewTransform::filmic;
+  float exposure = 0;                // stops
+  std::vector<std::string> aovs;     // of: depth normal albedo uv id lod steps
+  uint32_t loop_budget = 4000;       // traversal steps of one dispatch; see trace.h
+};
+
+// A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y up,
+// x and y in [-1, 1] (orthographic: parallel to forward, from origin + x right + y up).
+struct View {
+  std::string name;
+  glm::vec3 origin{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
+  bool perspective = true;
+};
+
+// `name`: a camera of the scene, a number, or "auto": one that frames `bounds` from the front, a little from above.
+// Empty: the first camera of the scene, else auto. Throws Error(usage) listing the cameras.
+View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
+               const scene::Bounds& bounds, uint32_t width, uint32_t height);
+
+struct FrameResult {
+  image::Image linear;   // R G B A and the AOVs, under their EXR channel names
+  image::Image display;  // R G B A after exposure, view transform and sRGB encoding
+  std::vector<PassRecord> passes;
+  double wall_ms = 0;
+};
+
+// Sees every pass as it runs; parity/ and tests hook in here.
+class Renderer {
+ public:
+  // Uploads everything static and runs `links`. The scene, assembly and atlas must outlive the renderer.
+  Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
+           const geometry_image::Atlas& atlas, const Settings& settings);
+  ~Renderer();
+
+  // One frame. `interrupted` is asked between batches; where it says yes, nothing is returned.
+  std::optional<FrameResult> render(const scene::Pose& pose, const View& view,
+                                    const std::function<bool()>& interrupted = {});
+
+  std::vector<PassRecord> setup_passes() const;  // the records of `links`
+  Traversal traversal() const;                   // what `automatic` became
+
+  // The pieces of a frame, for benchmarks: blend, rasterise and bounds; then given rays (two vec4 each: origin and
+  // tmin, direction and tmax) against the hierarchy, closest hit, results t u v primitive.
+  void update(const scene::Pose& pose);
+  void load_rays(const std::vector<glm::vec4>& rays);
+  void trace_loaded();
+  std::vector<glm::uvec4> hits();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+const char* to_string(Traversal traversal);
+
+// A back end that runs every pass on `device` and, on the very inputs the device had, on `reference`, and compares
+// what they wrote, word by word.
+struct PassDifference {
+  std::string pass, buffer;
+  uint64_t words = 0, different = 0;  // words compared, words that differ
+  uint64_t first = 0;                 // word index of the first one
+  uint32_t device_value = 0, reference_value = 0;
+  uint64_t dispatches = 0;
+};
+
+// A bit flipped on purpose in what `pass` wrote on the device.
+struct Fault {
+  std::string pass;
+  uint32_t bit = 0;
+};
+
+class ParityBackend : public Backend {
+ public:
+  ParityBackend(std::unique_ptr<Backend> device, std::unique_ptr<Backend> reference,
+                std::optional<Fault> fault = {});
+  ~ParityBackend() override;
+  const DeviceInfo& info() const override;
+  BufferId create(const BufferDesc& desc) override;
+  void destroy(BufferId buffer) override;
+  void upload(BufferId buffer, std::span<const std::byte> bytes, uint64_t offset_bytes) override;
+  void download(BufferId buffer, std::span<std::byte> bytes, uint64_t offset_bytes) override;
+  const BufferDesc& desc(BufferId buffer) const override;
+  void run(const Dispatch& dispatch) override;
+  std::vector<PassRecord> finish() override;
+  uint64_t allocated_bytes() const override;
+
+  // One row a pass and written buffer, in order of first use.
+  const std::vector<PassDifference>& differences() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lodestone::render

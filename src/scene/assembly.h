@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A scene as the tracers see it: every node that places a mesh is a placement with vertices of its own, all
+// placements in one run of vertices and one of triangles. Static: computed once, uploaded once. What changes by the
+// frame is two small arrays, the morph weights and the matrices (`frame_weights`, `frame_matrices`).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "lodestone/scene/pose.h"
+#include "lodestone/scene/scene.h"
+
+namespace lodestone::scene {
+
+struct Placement {
+  uint32_t node = 0, mesh = 0;
+  uint32_t first_vertex = 0, first_triangle = 0;
+  uint32_t first_weight = 0;  // in the frame's weights: one a target of the mesh
+  uint32_t first_matrix = 0;  // in the frame's matrices: one a joint, or one
+};
+
+// The material and the numbering of a run of triangles (Mesh part of a placement).
+struct AssemblyPart {
+  uint32_t material = none;
+  uint32_t mesh = 0;                // index in the file
+  uint32_t first_triangle = 0;      // in the assembly
+  uint32_t first_mesh_triangle = 0;  // the same triangle's index within its mesh
+};
+
+// A morph delta of one vertex: `weight` indexes the frame's weights.
+struct MorphEntry {
+  uint32_t weight = 0;
+  glm::vec3 position{0}, normal{0}, tangent{0};
+};
+
+struct MatrixInfluence {
+  uint32_t matrix = 0;  // in the frame's matrices
+  float weight = 1;
+};
+
+struct Assembly {
+  std::vector<Placement> placements;  // in node order
+  std::vector<AssemblyPart> parts;
+  std::vector<glm::vec3> positions, normals;
+  std::vector<glm::vec4> tangents;  // xyz 0 where the mesh has none
+  std::vector<glm::vec2> texcoords[2];
+  std::vector<uint32_t> colors;     // RGBA8, R lowest; 0xffffffff where the mesh has none
+  std::vector<uint32_t> first_morph;      // vertex v has morphs[first_morph[v] .. first_morph[v + 1])
+  std::vector<MorphEntry> morphs;         // ascending weight index within a vertex
+  std::vector<uint32_t> first_influence;  // as above; at least one a vertex
+  std::vector<MatrixInfluence> influences;
+  std::vector<glm::uvec4> triangles;  // three vertices and the part
+  uint32_t weight_count = 0, matrix_count = 0;
+  bool has_tangents = false;
+};
+
+// Throws Error(bad_input) where the scene draws no triangle or more than 2^28 of them.
+Assembly assemble(const Scene& scene);
+
+std::vector<float> frame_weights(const Scene& scene, const Assembly& assembly, const Pose& pose);
+// Rows of 3 x 4 matrices: row r of matrix m is element 3 * m + r.
+std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assembly, const Pose& pose);
+
+// Assembly positions in the world at a pose, evaluated on the CPU in the order and precision of the `blend` pass.
+std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
+                                         const std::vector<glm::vec4>& matrices);
+
+}  // namespace lodestone::scene
