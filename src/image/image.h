@@ -10,6 +10,10 @@
 
 namespace lodestone::image {
 
+// The most samples (width x height x channels) an image that is read may claim to have; more is taken for
+// hostile.
+inline constexpr uint64_t max_samples = uint64_t(1) << 28;
+
 // One named plane, row by row from the top. Exactly one of the two arrays holds width x height samples.
 struct Channel {
   std::string name;  // "R", "depth.Z", "id.mesh": the EXR channel name
@@ -19,25 +23,42 @@ struct Channel {
 
 struct Image {
   uint32_t width = 0, height = 0;
-  std::vector<Channel> channels;
+  std::vector<Channel> channels;  // names differ
+  // Name to text. EXR reserves the names of its own header ("channels", "compression", ...) and takes up to
+  // 255 bytes of name, PNG up to 79; neither text nor name holds a zero byte.
   std::map<std::string, std::string> metadata;
+  // Whether R G B are linear light (an EXR) rather than encoded for a display (a PNG). Nothing is converted
+  // by it; the comparison needs to know.
+  bool linear = true;
 
-  const Channel* find(const std::string& name) const;
-  Channel& add(const std::string& name);  // float, zero-filled
+  uint64_t pixels() const { return uint64_t(width) * height; }
+  const Channel* find(const std::string& name) const;  // nullptr where there is none
+  // Appends a channel of width x height zeros; the reference holds until the next channel is added.
+  Channel& add(const std::string& name);
   Channel& add_ids(const std::string& name);
 };
 
-// EXR: every channel, float or uint, in the native format, ZIP; metadata as string attributes. Byte-identical
-// for equal input. PNG: R G B (A where there is one) as they are (already tone-mapped and encoded), clamped to 0..1,
-// 8 bits by floor(255 x + 0.5); metadata as text. The file appears whole or not at all.
-// Throws Error(usage) for another extension, Error(machine) where it cannot be written.
+// EXR: every channel, float or uint, in the native format, ZIP; metadata as string attributes. PNG: R G B (A
+// where there is one), or a lone Y as grey, as they are (already tone-mapped and encoded; alpha is neither
+// multiplied in nor divided out), clamped to 0..1, NaN as 0, 8 bits by floor(255 x + 0.5); metadata as tEXt.
+// Both are byte-identical for equal input (no time stamps), and appear whole or not at all. Throws
+// Error(usage) for another extension, for a PNG without R G B, and for metadata whose name is reserved;
+// Error(machine) where it cannot be written; std::invalid_argument where a channel has not width x height
+// samples or two channels have one name.
 void write(const std::filesystem::path& path, const Image& image);
 
-// Any image that OpenImageIO reads: floats (uint channels of an EXR stay uint), 8- and 16-bit integers as 0..1.
-// Throws Error(bad_input).
+// Any image that OpenImageIO reads, the first one where the file holds several: floats as they are, 8- and
+// 16-bit integers as x / 255 and x / 65535 (not linear: Image::linear is false), 32-bit unsigned channels as
+// ids; alpha as it is. Channels are named as in the file (grey: "Y"), in OpenImageIO's order. String
+// attributes become metadata. Throws Error(bad_input) where it is missing, truncated or no image, or has more
+// than max_samples samples.
 Image read(const std::filesystem::path& path);
 
-// Tiles of equal size in rows of `columns`, RGB(A) only, a label above each (drawn with OpenImageIO).
-Image contact_sheet(const std::vector<Image>& tiles, const std::vector<std::string>& labels, uint32_t columns);
+// Tiles of equal size in rows of `columns`, their R G B only, a label above each: printable ASCII ('?' stands
+// for the rest), in as large letters as let all of it fit, cut where the smallest do not. Encoded as the
+// tiles are. Throws std::invalid_argument where there are no tiles, not as many labels, sizes differ or a
+// tile has no R G B.
+Image contact_sheet(const std::vector<Image>& tiles, const std::vector<std::string>& labels,
+                    uint32_t columns);
 
 }  // namespace lodestone::image
