@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Wavefront OBJ: polygons of positions, texture coordinates and normals that are indexed apart. A file
+// becomes one mesh in the order of its faces; `o` and `g` only group. Curves, surfaces, lines and points are
+// passed over.
+//
+// The reader is ours because a message has to name the line at fault, and because malformed numbers have to
+// be errors; tinyobjloader gives no lines and reads what it cannot parse as zero.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lodestone/base/error.h"
+#include "lodestone/base/file.h"
+#include "lodestone/base/log.h"
+#include "lodestone/scene/first_use.h"
+#include "lodestone/scene/load.h"
+#include "lodestone/scene/mesh_tools.h"
+#include "lodestone/scene/obj_materials.h"
+#include "lodestone/scene/single_mesh.h"
+#include "lodestone/scene/text_reader.h"
+
+namespace lodestone::scene {
+namespace {
+
+// Position, texture coordinates and normal of a corner, counted from 0; `none` for what is absent.
+using Corner = FirstUse<3>::Key;
+
+class ObjParser {
+ public:
+  ObjParser(const std::string& file, std::string_view text, ObjMaterials& materials, Mesh& mesh)
+      : reader_(file, text, 1, true), materials_(materials), mesh_(mesh) {}
+
+  void parse() {
+    do {
+      parse_line();
+    } while (reader_.next_line());
+    if (small_faces_ > 0) {
+      log::warn(
+          fmt::format("{}: {} faces of fewer than 3 corners are left out", reader_.file(), small_faces_));
+    }
+    if (mesh_.triangles.empty()) {
+      fail_input(reader_.file(), "has no faces; export the file as a polygon mesh");
+    }
+    build_vertices();
+  }
+
+ private:
+  void parse_line() {
+    const std::string_view keyword = reader_.word();
+    if (keyword == "v") {
+      positions_.push_back(parse_vector("a coordinate of v"));
+      check_count(positions_.size());
+    } else if (keyword == "vt") {
+      texcoords_.push_back(parse_texcoord());
+      check_count(texcoords_.size());
+    } else if (keyword == "vn") {
+      normals_.push_back(parse_vector("a coordinate of vn"));
+      check_count(normals_.size());
+    } else if (keyword == "f" || keyword == "fo") {
+      parse_face();
+    } else if (keyword == "usemtl") {
+      material_ = materials_.find(reader_.rest_of_line());
+    } else if (keyword == "mtllib") {
+      parse_libraries();
+    } else if (is_geometry(keyword)) {
+      log::warn_once("obj " + std::string(keyword) + reader_.file(),
+                     fmt::format("{}: line {}: `{}` is left out; only faces are read", reader_.file(),
+                                 reader_.line(), keyword));
+    }
+  }
+
+  static bool is_geometry(std::string_view keyword) {
+    return keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "curv2" || keyword == "surf";
+  }
+
+  void check_count(size_t count) const {
+    if (count >= none) fail_too_many(reader_.file());
+  }
+
+  glm::vec3 parse_vector(const char* what) {
+    const float x = reader_.read_float(what), y = reader_.read_float(what), z = reader_.read_float(what);
+    return {x, y, z};
+  }
+
+  // `u [v [w]]`; v counts from the bottom of the image and is turned over.
+  glm::vec2 parse_texcoord() {
+    const float u = reader_.read_float("a coordinate of vt");
+    const std::string_view second = reader_.word();
+    const float v = second.empty() ? 0 : reader_.to_float(second, "a coordinate of vt");
+    return {u, 1 - v};
+  }
+
+  // The statement lists several names, or one with blanks in it. The whole of it is tried where it is one
+  // file.
+  void parse_libraries() {
+    const std::string_view names = reader_.rest_of_line();
+    const size_t extension = names.rfind(".mtl");
+    const bool several = extension != std::string_view::npos && names.find(".mtl ") < extension;
+    if (!several) return materials_.read_library(std::string(names));
+    TextReader words(reader_.file(), names, reader_.line());
+    for (std::string_view name = words.word(); !name.empty(); name = words.word()) {
+      materials_.read_library(std::string(name));
+    }
+  }
+
+  void parse_face() {
+    uint32_t first = none, previous = none;
+    size_t corners = 0;
+    for (std::string_view word = reader_.word(); !word.empty(); word = reader_.word(), ++corners) {
+      if (word.front() == '#') break;
+      const uint32_t current = parse_corner(word);
+      if (corners == 0) first = current;
+      if (corners >= 2) add_triangle({first, previous, current});
+      previous = current;
+    }
+    if (corners < 3) ++small_faces_;
+  }
+
+  void add_triangle(const glm::uvec3& triangle) {
+    check_count(mesh_.triangles.size() + 1);
+    const auto index = static_cast<uint32_t>(mesh_.triangles.size());
+    if (mesh_.parts.empty() || mesh_.parts.back().material != material_) {
+      mesh_.parts.push_back({index, 0, material_});
+    }
+    ++mesh_.parts.back().triangle_count;
+    mesh_.triangles.push_back(triangle);
+  }
+
+  // `v`, `v/vt`, `v//vn` or `v/vt/vn`; the vertex that stands for the three.
+  uint32_t parse_corner(std::string_view word) {
+    const std::array<size_t, 3> counts{positions_.size(), texcoords_.size(), normals_.size()};
+    Corner corner{none, none, none};
+    std::string_view rest = word;
+    for (size_t i = 0; i < 3; ++i) {
+      const size_t slash = rest.find('/');
+      const std::string_view field = rest.substr(0, slash);
+      if (!field.empty()) corner[i] = parse_index(field, counts[i]);
+      if (slash == std::string_view::npos) break;
+      if (i == 2)
+        reader_.fail("the corner `{}` has more than three indices; export the file again", printable(word));
+      rest.remove_prefix(slash + 1);
+    }
+    if (corner[0] == none)
+      reader_.fail("the corner `{}` names no vertex; export the file again", printable(word));
+    const uint32_t vertex = corners_.number(corner);
+    if (vertex == corner_lines_.size()) {
+      check_count(corner_lines_.size() + 1);
+      corner_lines_.push_back(reader_.line());
+    }
+    return vertex;
+  }
+
+  // Indices count from 1, negative ones back from the last one so far. A positive one may look ahead; whether
+  // what it names is there is known at the end of the file only.
+  uint32_t parse_index(std::string_view field, size_t count) const {
+    const int64_t index = reader_.to_integer(field, "an index");
+    const auto known = static_cast<int64_t>(count);
+    if (index == 0) reader_.fail("index 0 in a face; indices count from 1, export the file again");
+    if (index < -known) {
+      reader_.fail("index {} in a face counts back behind the first of {}; export the file again", index,
+                   known);
+    }
+    if (index >= int64_t(none))
+      reader_.fail("index {} in a face is out of range; export the file again", index);
+    return static_cast<uint32_t>(index > 0 ? index - 1 : known + index);
+  }
+
+  void check_corners() const {
+    static constexpr std::array<const char*, 3> keywords{"v", "vt", "vn"};
+    const std::array<size_t, 3> counts{positions_.size(), texcoords_.size(), normals_.size()};
+    for (size_t vertex = 0; vertex < corners_.keys().size(); ++vertex) {
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t index = corners_.keys()[vertex][i];
+        if (index != none && index >= counts[i]) {
+          fail_input(reader_.file(),
+                     "line {}: a face names {} {}, but the file has {}; export the file again",
+                     corner_lines_[vertex], keywords[i], uint64_t(index) + 1, counts[i]);
+        }
+      }
+    }
+  }
+
+  void build_vertices() {
+    check_corners();
+    const std::vector<Corner>& corners = corners_.keys();
+    bool has_texcoords = false, has_normals = false;
+    mesh_.positions.reserve(corners.size());
+    for (const auto& [position, texcoord, normal] : corners) {
+      mesh_.positions.push_back(positions_[position]);
+      has_texcoords |= texcoord != none;
+      has_normals |= normal != none;
+    }
+    if (has_texcoords) {
+      mesh_.texcoords[0].reserve(corners.size());
+      for (const Corner& corner : corners) {
+        mesh_.texcoords[0].push_back(corner[1] == none ? glm::vec2(0) : texcoords_[corner[1]]);
+      }
+    }
+    if (has_normals) {
+      // A zero normal is replaced by a smooth one later.
+      mesh_.normals.reserve(corners.size());
+      for (const Corner& corner : corners) {
+        mesh_.normals.push_back(corner[2] == none ? glm::vec3(0) : normals_[corner[2]]);
+      }
+    }
+  }
+
+  TextReader reader_;
+  ObjMaterials& materials_;
+  Mesh& mesh_;
+  std::vector<glm::vec3> positions_, normals_;
+  std::vector<glm::vec2> texcoords_;
+  FirstUse<3> corners_;                 // the mesh's vertices
+  std::vector<uint64_t> corner_lines_;  // where each is first used
+  uint32_t material_ = none;
+  uint64_t small_faces_ = 0;
+};
+
+}  // namespace
+
+Scene load_obj(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  ObjMaterials materials(path);
+  Mesh mesh;
+  {
+    const std::vector<std::byte> contents = read_file(path);
+    ObjParser(file, as_text(contents), materials, mesh).parse();
+  }
+  complete_normals(mesh);
+  Scene scene = single_mesh_scene(path, std::move(mesh));
+  materials.move_to(scene);
+  return scene;
+}
+
+}  // namespace lodestone::scene
