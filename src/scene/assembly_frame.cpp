@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// What changes by the frame, and the reference of the pass `blend`.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "lodestone/layout/arithmetic.h"
+#include "lodestone/scene/assembly.h"
+
+namespace lodestone::scene {
+namespace {
+
+struct Rows {
+  glm::vec4 r0{0}, r1{0}, r2{0};
+};
+
+glm::vec3 morphed(const Assembly& assembly, const std::vector<float>& weights, uint32_t vertex) {
+  glm::vec3 p = assembly.positions[vertex];
+  for (uint32_t i = assembly.first_morph[vertex]; i < assembly.first_morph[vertex + 1]; ++i) {
+    const MorphEntry& entry = assembly.morphs[i];
+    p = p + weights[entry.weight] * entry.position;
+  }
+  return p;
+}
+
+Rows blended_matrix(const Assembly& assembly, const std::vector<glm::vec4>& matrices, uint32_t vertex) {
+  Rows sum;
+  for (uint32_t i = assembly.first_influence[vertex]; i < assembly.first_influence[vertex + 1]; ++i) {
+    const MatrixInfluence& influence = assembly.influences[i];
+    const glm::vec4* row = &matrices[3 * size_t(influence.matrix)];
+    sum.r0 = sum.r0 + influence.weight * row[0];
+    sum.r1 = sum.r1 + influence.weight * row[1];
+    sum.r2 = sum.r2 + influence.weight * row[2];
+  }
+  return sum;
+}
+
+float transformed(const glm::vec4& row, const glm::vec3& p) {
+  return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
+}
+
+void check_size(size_t have, size_t need, const char* what) {
+  if (have != need) throw std::invalid_argument(std::string(what) + " are not those of this assembly");
+}
+
+}  // namespace
+
+std::vector<float> frame_weights(const Scene& scene, const Assembly& assembly, const Pose& pose) {
+  std::vector<float> weights(assembly.weight_count, 0.0f);
+  for (const Placement& placement : assembly.placements) {
+    const std::vector<float>& given = pose.weights[placement.node];
+    check_size(given.size(), scene.meshes[placement.mesh].targets.size(), "the morph weights of a pose");
+    std::transform(given.begin(), given.end(), weights.begin() + placement.first_weight, layout::flush_tiny);
+  }
+  return weights;
+}
+
+std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assembly, const Pose& pose) {
+  std::vector<glm::vec4> rows(3 * size_t(assembly.matrix_count));
+  for (size_t i = 0; i < assembly.placements.size(); ++i) {
+    const uint32_t first = assembly.placements[i].first_matrix;
+    const bool last = i + 1 == assembly.placements.size();
+    const uint32_t end = last ? assembly.matrix_count : assembly.placements[i + 1].first_matrix;
+    const std::vector<glm::mat4> matrices = palette(scene, pose, assembly.placements[i].node);
+    check_size(matrices.size(), end - first, "the matrices of a pose");
+    for (uint32_t m = 0; m < matrices.size(); ++m) {
+      for (int r = 0; r < 3; ++r) {
+        const glm::mat4& matrix = matrices[m];
+        glm::vec4& row = rows[3 * size_t(first + m) + size_t(r)];
+        for (int column = 0; column < 4; ++column) row[column] = layout::flush_tiny(matrix[column][r]);
+      }
+    }
+  }
+  return rows;
+}
+
+std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
+                                         const std::vector<glm::vec4>& matrices) {
+  check_size(weights.size(), assembly.weight_count, "the morph weights");
+  check_size(matrices.size(), 3 * size_t(assembly.matrix_count), "the matrices");
+  const auto vertices = static_cast<uint32_t>(assembly.positions.size());
+  std::vector<glm::vec3> blended(vertices);
+  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, vertices, 1u << 13), [&](const auto& range) {
+    for (uint32_t v = range.begin(); v != range.end(); ++v) {
+      const glm::vec3 p = morphed(assembly, weights, v);
+      const Rows m = blended_matrix(assembly, matrices, v);
+      blended[v] = layout::flush_tiny3({transformed(m.r0, p), transformed(m.r1, p), transformed(m.r2, p)});
+    }
+  });
+  return blended;
+}
+
+}  // namespace lodestone::scene
