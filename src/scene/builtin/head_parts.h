@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The parts of the head beside its skin. Each is a mesh of closed surfaces with the blendshapes that move it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lodestone/scene/builtin/head_expression.h"
+#include "lodestone/scene/scene.h"
+
+namespace lodestone::scene::builtin {
+
+using Posing = std::function<std::vector<glm::vec3>(const Expression&)>;
+
+// Gives a mesh, whose triangles are there, its positions, normals and blendshapes.
+void sculpt(Mesh& mesh, const Posing& posed);
+
+Mesh head_eyes(uint32_t material);
+Image iris_image();
+
+}  // namespace lodestone::scene::builtin

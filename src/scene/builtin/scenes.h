@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The built-in scenes, one function each; make_builtin (load.h) names and validates them.
+#pragma once
+
+#include "lodestone/scene/scene.h"
+
+namespace lodestone::scene::builtin {
+
+// A cartoon bust with 18 blendshapes, about 65,000 vertices; clip `Expressions`, camera `Portrait`.
+Scene make_head();
+// A floor and closed spheres of several materials, lights of every kind, one blendshape; 10,000 triangles.
+Scene make_spheres();
+// A fractal height field of charts of unequal odd sizes with a moving wave; 40,000 triangles.
+Scene make_terrain();
+// Two grids with a handful of triangles and one blendshape.
+Scene make_tiny();
+
+}  // namespace lodestone::scene::builtin

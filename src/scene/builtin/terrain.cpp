@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// A fractal height field of 3 x 2 charts whose sizes are unequal and no powers of two, with a wave travelling
+// through it: the test of chart borders, odd pyramids and moving samples.
+#include <cmath>
+
+#include "lodestone/scene/builtin/scenes.h"
+#include "lodestone/scene/builtin/staging.h"
+#include "lodestone/scene/builtin/surface.h"
+
+namespace lodestone::scene::builtin {
+namespace {
+
+constexpr std::array<uint32_t, 3> chart_widths = {97, 64, 50};  // samples; neighbours share a column or row
+constexpr std::array<uint32_t, 2> chart_heights = {61, 33};
+constexpr uint32_t columns = 97 + 64 + 50 - 2, rows = 61 + 33 - 1;
+constexpr float spacing = 0.05f;
+
+// A number in [0, 1) that looks random, of a lattice point.
+float lattice_noise(int x, int y, uint32_t octave) {
+  uint32_t h = uint32_t(x) * 0x8da6b343u ^ uint32_t(y) * 0xd8163841u ^ (octave + 1) * 0xcb1ab31fu;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  return float((h ^ (h >> 15)) >> 8) / 16777216.0f;
+}
+
+// Value noise: the noise of the four lattice points around, smoothly blended.
+float value_noise(float x, float y, uint32_t octave) {
+  const int ix = int(std::floor(x)), iy = int(std::floor(y));
+  const float fx = x - float(ix), fy = y - float(iy);
+  const float sx = fx * fx * (3 - 2 * fx), sy = fy * fy * (3 - 2 * fy);
+  const float low = glm::mix(lattice_noise(ix, iy, octave), lattice_noise(ix + 1, iy, octave), sx);
+  const float high = glm::mix(lattice_noise(ix, iy + 1, octave), lattice_noise(ix + 1, iy + 1, octave), sx);
+  return glm::mix(low, high, sy);
+}
+
+// Ridged fractal noise: mountains with crests, flat valleys.
+float height_at(glm::vec2 p) {
+  float height = 0, amplitude = 1.1f, frequency = 0.45f;
+  for (uint32_t octave = 0; octave < 6; ++octave) {
+    const float n = 1 - std::abs(2 * value_noise(p.x * frequency, p.y * frequency, octave) - 1);
+    height += amplitude * n * n;
+    amplitude *= 0.42f;
+    frequency *= 2.1f;
+  }
+  return height - 0.6f;
+}
+
+glm::vec4 ground_color(float height, float slope) {
+  const glm::vec3 grass(0.16f, 0.26f, 0.08f), rock(0.30f, 0.26f, 0.22f), snow(0.85f, 0.87f, 0.9f);
+  const glm::vec3 ground = glm::mix(grass, rock, glm::smoothstep(0.25f, 0.6f, slope));
+  return glm::vec4(glm::mix(ground, snow, glm::smoothstep(0.55f, 0.8f, height)), 1);
+}
+
+Mesh terrain_mesh() {
+  Mesh mesh;
+  mesh.name = "terrain";
+  // Columns run along +X and rows along -Z, so that columns x rows points up.
+  for (uint32_t y = 0; y < rows; ++y)
+    for (uint32_t x = 0; x < columns; ++x) {
+      const glm::vec2 p((float(x) - 0.5f * float(columns - 1)) * spacing,
+                        (0.5f * float(rows - 1) - float(y)) * spacing);
+      mesh.positions.push_back(snap(glm::vec3(p.x, height_at(p), p.y)));
+      mesh.texcoords[0].push_back(snap(glm::vec2(float(x) / float(columns - 1), float(y) / float(rows - 1))));
+    }
+  uint32_t first_row = 0;
+  for (const uint32_t height : chart_heights) {
+    uint32_t first_column = 0;
+    for (const uint32_t width : chart_widths) {
+      Grid grid{width, height, 0, {}};
+      for (uint32_t y = first_row; y < first_row + height; ++y)
+        for (uint32_t x = first_column; x < first_column + width; ++x)
+          grid.vertices.push_back(y * columns + x);
+      add_grid(mesh, std::move(grid));
+      first_column += width - 1;
+    }
+    first_row += height - 1;
+  }
+  return mesh;
+}
+
+// A standing wave; two of them a quarter period apart, weighted by cosine and sine of time, travel.
+void add_wave(Mesh& mesh, const std::string& name, float phase) {
+  std::vector<glm::vec3> posed = mesh.positions;
+  for (glm::vec3& p : posed) p = snap(p + glm::vec3(0, 0.06f * std::sin(1.8f * p.x + 0.9f * p.z + phase), 0));
+  add_target(mesh, name, posed);
+}
+
+}  // namespace
+
+Scene make_terrain() {
+  Scene scene;
+  const uint32_t ground = add_material(scene, "ground", glm::vec3(1), 0.95f);
+  Mesh mesh = terrain_mesh();
+  add_part(mesh, 0, ground);
+  mesh.normals = snapped_normals(mesh, mesh.positions);
+  for (size_t v = 0; v < mesh.positions.size(); ++v)
+    mesh.colors.push_back(ground_color(mesh.positions[v].y, 1 - mesh.normals[v].y));
+  add_wave(mesh, "waveCosine", 0);
+  add_wave(mesh, "waveSine", 1.5707963f);
+  const uint32_t node = add_mesh(scene, std::move(mesh));
+
+  Camera camera;
+  camera.name = "Valley";
+  camera.yfov = 0.65f;
+  add_camera(scene, camera, {1.5f, 3.6f, 6.5f}, {0, 0.1f, 0});
+  Light sun;
+  sun.name = "Sun";
+  sun.kind = Light::Kind::directional;
+  sun.color = {1, 0.93f, 0.8f};
+  sun.intensity = 3;
+  add_light(scene, sun, {-4, 3, 2}, {0, 0, 0});
+  scene.sky = Sky{{0.25f, 0.42f, 0.75f}, {0.65f, 0.7f, 0.75f}, {0.15f, 0.14f, 0.12f}};
+
+  Animation animation;
+  animation.name = "Wave";
+  std::vector<float> times;
+  std::vector<std::vector<float>> keys;
+  constexpr int steps = 16;
+  for (int k = 0; k <= steps; ++k) {
+    const float angle = 6.2831853f * float(k % steps) / steps;  // the last key is the first
+    times.push_back(2.0f * float(k) / steps);
+    keys.push_back({snap(std::cos(angle)), snap(std::sin(angle))});
+  }
+  animation.channels.push_back(weight_keys(node, Channel::Interpolation::linear, times, keys));
+  scene.animations.push_back(std::move(animation));
+  return scene;
+}
+
+}  // namespace lodestone::scene::builtin
