@@ -29,7 +29,7 @@ function(lodestone_embed_kernel target root source name texel)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name})
   get_filename_component(folder ${base} DIRECTORY)
   file(MAKE_DIRECTORY ${folder})
-  string(MAKE_C_IDENTIFIER lodestone_kernel_${target}_${name} symbol)
+  string(MAKE_C_IDENTIFIER embedded_${target}_${name} symbol)
   add_custom_command(
     OUTPUT ${base}.raw.spv
     COMMAND ${LODESTONE_GLSLANG} --quiet -V --target-env vulkan1.2 $<$<CONFIG:Debug>:-g> -I${root} -I${LODESTONE_SHADERS}
@@ -55,7 +55,7 @@ function(lodestone_index_kernels target namespace names)
   set(entries "")
   set(count 0)
   foreach(name ${names})
-    string(MAKE_C_IDENTIFIER lodestone_kernel_${target}_${name} symbol)
+    string(MAKE_C_IDENTIFIER embedded_${target}_${name} symbol)
     string(APPEND declarations "extern const std::uint32_t ${symbol}[]@SEMI@\nextern const std::size_t ${symbol}_words@SEMI@\n")
     string(APPEND entries "      lodestone::kernels::Kernel{\"${name}\", {${symbol}, ${symbol}_words}},\n")
     math(EXPR count "${count} + 1")

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Every pass, under the name of its kernel; what each does stands in shaders/geometry_image/NAME.comp.
+#pragma once
+
+#include "lodestone/cpu_fallback/kernel.h"
+
+namespace lodestone::cpu_fallback {
+
+void links(const CpuDispatch& dispatch);
+void blend(const CpuDispatch& dispatch);
+void rasterise(const CpuDispatch& dispatch);
+void bounds_leaves(const CpuDispatch& dispatch);
+void bounds(const CpuDispatch& dispatch);
+void camera(const CpuDispatch& dispatch);
+void trace_threaded(const CpuDispatch& dispatch);
+void trace_octant(const CpuDispatch& dispatch);
+void mask(const CpuDispatch& dispatch);
+void shade(const CpuDispatch& dispatch);
+void accumulate(const CpuDispatch& dispatch);
+void aov(const CpuDispatch& dispatch);
+void resolve(const CpuDispatch& dispatch);
+
+}  // namespace lodestone::cpu_fallback

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// What the traversals of single rays share: their buffers, and a ray's state from dispatch to dispatch
+// (shaders/geometry_image/trace.glsl).
+#pragma once
+
+#include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/trace.h"
+
+namespace lodestone::cpu_fallback {
+
+template <class Probe>
+class TraceKernel : public Kernel<Probe> {
+ public:
+  using Kernel<Probe>::Kernel;
+
+ protected:
+  struct State {
+    layout::Hit best;
+    glm::uvec4 place;  // { order, turns, depth, status } or { link, 0, 0, status }
+  };
+
+  layout::Ray load_ray(uint32_t index) {
+    const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)), along = this->load(rays_, 2 * uint64_t(index) + 1);
+    return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
+  }
+
+  // The largest absolute coordinate of the root's bound.
+  float scene_extent() {
+    const glm::vec3 a = as_vec3(this->load(nodes_lo_, 0)), b = as_vec3(this->load(nodes_hi_, 0));
+    return layout::max2(layout::max_component({layout::abs1(a.x), layout::abs1(a.y), layout::abs1(a.z)}),
+                        layout::max_component({layout::abs1(b.x), layout::abs1(b.y), layout::abs1(b.z)}));
+  }
+
+  // False: this ray has nothing to do in this dispatch.
+  bool begin_ray(uint32_t index, const layout::Ray& ray, State& state) {
+    state = {{ray.tmax, 0, 0, layout::no_index}, {0, 0, 0, layout::trace_unfinished}};
+    visits_ = 0;
+    if (push_.resume == 0) {
+      if (!(ray.tmax < 0.0f)) this->probe.ray();
+      return true;
+    }
+    state.place = this->load(states_, index);
+    if (state.place.w == layout::trace_restart) return true;
+    const glm::uvec4 bits = this->load(hits_, index);
+    state.best = {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y), layout::uintBitsToFloat(bits.z),
+                  bits.w};
+    return state.place.w == layout::trace_unfinished;
+  }
+
+  void end_ray(uint32_t index, State state) {
+    if (any_hit() && state.best.primitive != layout::no_index) state.best = {0, 0, 0, 0};
+    this->store(hits_, index, as_bits({state.best.t, state.best.u, state.best.v}, state.best.primitive));
+    this->store(states_, index, state.place);
+    if (state.place.w == layout::trace_unfinished) this->add(pending_, 0, 1);
+    if (this->constant(1) != 0) {
+      this->store(steps_, index, (push_.resume != 0 ? this->load(steps_, index) : 0) + visits_);
+    }
+  }
+
+  void count_step() {
+    ++visits_;
+    this->probe.step();
+  }
+
+  void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, float enter, layout::Hit& best) {
+    layout::intersect_quad(as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
+                           as_vec3(this->load(geometry_, texel + stride)),
+                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, enter, texel, best);
+    this->probe.triangles(2);
+  }
+
+  bool any_hit() const { return any_hit_; }
+
+  Quads rays_ = this->quads(0), nodes_lo_ = this->quads(1), nodes_hi_ = this->quads(2), geometry_ = this->quads(3);
+  Words links_ = this->words(4);
+  Quads hits_ = this->quads(5), states_ = this->quads(6);
+  Words steps_ = this->words(7), pending_ = this->words(8);
+  layout::TracePush push_ = this->template push<layout::TracePush>();
+
+ private:
+  bool any_hit_ = this->constant(0) != 0;
+  uint32_t visits_ = 0;
+};
+
+}  // namespace lodestone::cpu_fallback

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/cpu_fallback/passes/trace_kernel.h"
+
+namespace lodestone::cpu_fallback {
+namespace {
+
+using glm::uvec4;
+
+template <class Probe>
+class TraceOctant : public TraceKernel<Probe> {
+ public:
+  using TraceKernel<Probe>::TraceKernel;
+
+  void operator()(uint32_t index) {
+    const layout::Ray ray = this->load_ray(index);
+    const layout::Slabs slabs = layout::make_slabs(ray, extent_);
+    typename TraceKernel<Probe>::State state;
+    if (!this->begin_ray(index, ray, state)) return;
+    layout::Hit& best = state.best;
+    layout::Walk walk{state.place.z, state.place.x, state.place.y};
+    bool finished = ray.tmax < 0.0f;
+    if (!finished) {
+      for (uint32_t budget = this->push_.budget; budget != 0; --budget) {
+        const uint32_t address = layout::walk_address(walk);
+        const uvec4 lo = this->load(this->nodes_lo_, address), hi = this->load(this->nodes_hi_, address);
+        this->count_step();
+        const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
+        const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+        if (inside && walk.depth != this->push_.depth) {
+          walk = layout::walk_down(walk, (lo.w >> (2 * slabs.octant)) & 3u);
+          continue;
+        }
+        if (inside) this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, ray, enter, best);
+        walk = layout::walk_on(walk);
+        if (this->any_hit() && best.primitive != layout::no_index) walk.depth = layout::walk_done;
+        if (walk.depth == layout::walk_done) break;
+      }
+      finished = walk.depth == layout::walk_done;
+    }
+    state.place = uvec4(walk.order, walk.turns, walk.depth, finished ? layout::trace_finished : layout::trace_unfinished);
+    this->end_ray(index, state);
+  }
+
+ private:
+  float extent_ = this->scene_extent();
+};
+
+}  // namespace
+
+void trace_octant(const CpuDispatch& dispatch) { run_pass<TraceOctant>(dispatch, 256); }
+
+}  // namespace lodestone::cpu_fallback

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/cpu_fallback/passes/trace_kernel.h"
+
+namespace lodestone::cpu_fallback {
+namespace {
+
+using glm::uvec4;
+
+template <class Probe>
+class TraceThreaded : public TraceKernel<Probe> {
+ public:
+  using TraceKernel<Probe>::TraceKernel;
+
+  void operator()(uint32_t index) {
+    const layout::Ray ray = this->load_ray(index);
+    const layout::Slabs slabs = layout::make_slabs(ray, extent_);
+    typename TraceKernel<Probe>::State state;
+    if (!this->begin_ray(index, ray, state)) return;
+    layout::Hit& best = state.best;
+    uint32_t link = state.place.x;
+    if (!(ray.tmax < 0.0f)) {
+      for (uint32_t budget = this->push_.budget; budget != 0; --budget) {
+        const uvec4 lo = this->load(this->nodes_lo_, link), hi = this->load(this->nodes_hi_, link);
+        const uint32_t hit = this->load(this->links_, 2 * uint64_t(link));
+        const uint32_t miss = this->load(this->links_, 2 * uint64_t(link) + 1);
+        this->count_step();
+        const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
+        const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+        const bool at_leaf = inside && (hit & layout::leaf_flag) != 0;
+        if (at_leaf) this->test_leaf(hit & ~layout::leaf_flag, hi.w, ray, enter, best);
+        link = inside && !at_leaf ? hit : miss;
+        if (this->any_hit() && best.primitive != layout::no_index) link = 0;
+        if (link == 0) break;
+      }
+    } else {
+      link = 0;
+    }
+    state.place = uvec4(link, 0, 0, link == 0 ? layout::trace_finished : layout::trace_unfinished);
+    this->end_ray(index, state);
+  }
+
+ private:
+  float extent_ = this->scene_extent();
+};
+
+}  // namespace
+
+void trace_threaded(const CpuDispatch& dispatch) { run_pass<TraceThreaded>(dispatch, 256); }
+
+}  // namespace lodestone::cpu_fallback

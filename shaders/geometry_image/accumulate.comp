@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Adds a light's contribution where its shadow ray hit nothing.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "kernel.glsl"
+#include "layout/atlas.h"
+#include "layout/frame.h"
+
+QUADS(0, readonly, shadow_hits);
+QUADS(1, readonly, contributions);
+QUADS(2, restrict, radiance);
+COUNTERS(3)
+PUSH(CountPush, push);
+
+void main() {
+  uint index = invocation();
+  if (index >= push.count) return;
+  uvec4 hit;
+  LOAD4(hit, shadow_hits, index);
+  if (hit.w == no_index) {
+    uvec4 contribution;
+    uvec4 before;
+    LOAD4(contribution, contributions, index);
+    LOAD4(before, radiance, index);
+    STORE4(radiance, index, as_bits(as_vec3(before) + as_vec3(contribution), before.w));
+  }
+  flush_counters();
+}

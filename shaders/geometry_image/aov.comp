@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The arbitrary output variables of a pixel, from the hit of the ray through its centre: four quads a pixel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "geometry_image/surface.glsl"
+
+QUADS(16, readonly, rays);
+WORDS(17, readonly, steps);
+QUADS(18, writeonly, aovs);
+COUNTERS(19)
+PUSH(RayPush, push);
+
+void main() {
+  uint index = invocation();
+  if (index >= push.rays) return;
+  FrameRecord frame = frames[0];
+  uint px;
+  uint py;
+  if (!ray_pixel(push.first_ray + index, frame.width, frame.height, px, py)) return;
+  uvec4 hit;
+  uint visited;
+  LOAD4(hit, hits, index);
+  LOAD1(visited, steps, index);
+  uint pixel = py * frame.width + px;
+  uvec4 first = uvec4(0x7f800000u, 0u, 0u, 0u);  // depth +inf, normal 0
+  uvec4 second = uvec4(0u);
+  uvec4 third = uvec4(0u, 0u, no_index, no_index);
+  if (hit.w != no_index) {
+    uvec4 along;
+    LOAD4(along, rays, 2u * index + 1u);
+    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+    Surface surface = surface_at(point, as_vec3(along));
+    PartRecord part = parts[point.part];
+    first = uvec4(hit.x, as_bits(surface.normal, 0u).xyz);
+    second = as_bits(surface.albedo, 0u);
+    third = uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y), part.mesh,
+                  part.first_mesh_triangle + (point.triangle - part.first_triangle));
+  }
+  STORE4(aovs, 4u * pixel, first);
+  STORE4(aovs, 4u * pixel + 1u, second);
+  STORE4(aovs, 4u * pixel + 2u, third);
+  STORE4(aovs, 4u * pixel + 3u, uvec4(0u, visited, 0u, 0u));  // level of detail 0: always full resolution
+  flush_counters();
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Alpha masks: a hit on a cut-out texel is no hit; its ray goes on from there in another round of `trace`.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "geometry_image/surface.glsl"
+
+QUADS(16, restrict, rays);
+QUADS(17, writeonly, states);
+STRUCTS(18, restrict, uint, pending);
+COUNTERS(19)
+PUSH(CountPush, push);
+
+void main() {
+  uint index = invocation();
+  if (index >= push.count) return;
+  uvec4 hit;
+  LOAD4(hit, hits, index);
+  if (hit.w == no_index) return;
+  SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+  MaterialRecord material = materials[parts[point.part].material];
+  if (material.alpha_mask == 0u) return;
+  if (!(base_color_at(material, point, texcoords_at(point)).w < material.alpha_cutoff)) return;
+  uvec4 from;
+  LOAD4(from, rays, 2u * index);
+  from.w = hit.x;
+  STORE4(rays, 2u * index, from);
+  STORE4(states, index, uvec4(0u, 0u, 0u, trace_restart));
+  atomicAdd(pending[0], 1u);
+  flush_counters();
+}

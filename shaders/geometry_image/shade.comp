@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What one light would send by way of the hit to the viewer, and the shadow ray that decides whether it does. The first
+// light's turn also adds what the surface emits, or the sky where nothing was hit.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "geometry_image/surface.glsl"
+
+QUADS(16, readonly, rays);
+STRUCTS(17, readonly, LightRecord, lights);
+QUADS(18, writeonly, contributions);
+QUADS(19, writeonly, shadow_rays);
+QUADS(20, restrict, radiance);
+COUNTERS(21)
+PUSH(RayPush, push);
+
+void main() {
+  uint index = invocation();
+  if (index >= push.rays) return;
+  uvec4 hit;
+  uvec4 from;
+  uvec4 along;
+  LOAD4(hit, hits, index);
+  LOAD4(from, rays, 2u * index);
+  LOAD4(along, rays, 2u * index + 1u);
+  FrameRecord frame = frames[0];
+  vec3 direction = as_vec3(along);
+  vec3 emitted = sky_radiance(frame, direction);
+  float alpha = 0.0;
+  uvec4 contribution = uvec4(0u);
+  uvec4 shadow_from = uvec4(0u);
+  uvec4 shadow_along = uvec4(0u, 0u, 0u, floatBitsToUint(-1.0));
+  if (hit.w != no_index) {
+    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+    Surface surface = surface_at(point, direction);
+    emitted = surface.emission;
+    alpha = 1.0;
+    uint px;
+    uint py;
+    ray_pixel(push.first_ray + index, frame.width, frame.height, px, py);
+    vec2 xi = sample_2d(frame.seed, py * frame.width + px, push.sample_index, pair_sky + push.light);
+    LightSample light = sample_light(lights[push.light], frame, surface, xi);
+    if (dot3(light.direction, surface.geometric) > 0.0 && max_component(light.radiance) > 0.0) {
+      Ray shadow = shadow_ray(surface, light);
+      contribution = as_bits(light.radiance, 0u);
+      shadow_from = as_bits(shadow.origin, floatBitsToUint(shadow.tmin));
+      shadow_along = as_bits(shadow.direction, floatBitsToUint(shadow.tmax));
+    }
+  }
+  STORE4(contributions, index, contribution);
+  STORE4(shadow_rays, 2u * index, shadow_from);
+  STORE4(shadow_rays, 2u * index + 1u, shadow_along);
+  if (push.light == 0u) {
+    vec4 sum = vec4(emitted.x, emitted.y, emitted.z, alpha);
+    if (uintBitsToFloat(along.w) < 0.0) sum = vec4(0.0, 0.0, 0.0, 0.0);
+    if (push.first == 0u) {
+      uvec4 before;
+      LOAD4(before, radiance, index);
+      sum = sum + as_vec4(before);
+    }
+    STORE4(radiance, index, as_bits(sum));
+  }
+  flush_counters();
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// What the traversals share: their buffers, and a ray's state from dispatch to dispatch.
+#include "kernel.glsl"
+#include "layout/trace.h"
+
+QUADS(0, readonly, rays);  // two a ray: origin and tmin, direction and tmax
+QUADS(1, readonly, nodes_lo);
+QUADS(2, readonly, nodes_hi);
+QUADS(3, readonly, geometry);
+WORDS(4, readonly, links);
+QUADS(5, restrict, hits);    // t, u, v, primitive
+QUADS(6, restrict, states);  // the place in the tree, and whether the ray goes on
+WORDS(7, restrict, steps);  // nodes visited, where specialization constant 3 asks for it
+STRUCTS(8, restrict, uint, pending);  // rays that need another dispatch
+COUNTERS(9)
+PUSH(TracePush, push);
+
+layout(constant_id = 2) const uint any_hit = 0u;  // 1: stop at the first hit found; hits say only whether
+layout(constant_id = 3) const uint write_steps = 0u;
+
+uint node_visits = 0u;
+uint triangle_tests = 0u;
+uint subgroup_steps = 0u;
+
+Ray load_ray(uint index) {
+  uvec4 from;
+  uvec4 along;
+  LOAD4(from, rays, 2u * index);
+  LOAD4(along, rays, 2u * index + 1u);
+  Ray ray;
+  ray.origin = as_vec3(from);
+  ray.tmin = uintBitsToFloat(from.w);
+  ray.direction = as_vec3(along);
+  ray.tmax = uintBitsToFloat(along.w);
+  return ray;
+}
+
+// The largest absolute coordinate of the root's bound.
+float scene_extent() {
+  uvec4 lo;
+  uvec4 hi;
+  LOAD4(lo, nodes_lo, 0u);
+  LOAD4(hi, nodes_hi, 0u);
+  vec3 a = as_vec3(lo);
+  vec3 b = as_vec3(hi);
+  return max2(max_component(vec3(abs1(a.x), abs1(a.y), abs1(a.z))), max_component(vec3(abs1(b.x), abs1(b.y), abs1(b.z))));
+}
+
+void count_step() {
+  node_visits += 1u;
+  if (counting != 0u && subgroupElect()) subgroup_steps += gl_SubgroupSize;
+}
+
+void test_leaf(uint texel, uint stride, Ray ray, float enter, inout Hit best) {
+  uvec4 a;
+  uvec4 b;
+  uvec4 c;
+  uvec4 d;
+  LOAD4(a, geometry, texel);
+  LOAD4(b, geometry, texel + 1u);
+  LOAD4(c, geometry, texel + stride);
+  LOAD4(d, geometry, texel + stride + 1u);
+  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, enter, texel, best);
+  triangle_tests += 2u;
+}
+
+// The ray's best hit so far, and its place in the tree; false: nothing to do in this dispatch.
+bool begin_ray(uint index, Ray ray, out Hit best, out uvec4 state) {
+  best.t = ray.tmax;
+  best.u = 0.0;
+  best.v = 0.0;
+  best.primitive = no_index;
+  state = uvec4(0u, 0u, 0u, trace_unfinished);
+  if (push.resume != 0u) {
+    LOAD4(state, states, index);
+    if (state.w == trace_restart) return true;
+    uvec4 bits;
+    LOAD4(bits, hits, index);
+    best.t = uintBitsToFloat(bits.x);
+    best.u = uintBitsToFloat(bits.y);
+    best.v = uintBitsToFloat(bits.z);
+    best.primitive = bits.w;
+    return state.w == trace_unfinished;
+  }
+  return true;
+}
+
+void end_ray(uint index, Ray ray, Hit best, uvec4 state) {
+  if (any_hit != 0u && best.primitive != no_index) {
+    best.t = 0.0;
+    best.u = 0.0;
+    best.v = 0.0;
+    best.primitive = 0u;
+  }
+  STORE4(hits, index, as_bits(vec3(best.t, best.u, best.v), best.primitive));
+  STORE4(states, index, state);
+  if (state.w == trace_unfinished) atomicAdd(pending[0], 1u);
+  if (write_steps != 0u) {
+    uint before = 0u;
+    if (push.resume != 0u) LOAD1(before, steps, index);
+    STORE1(steps, index, before + node_visits);
+  }
+  if (counting != 0u) {
+    if (push.resume == 0u && !(ray.tmax < 0.0)) atomicAdd(counters[counter_rays], 1u);
+    atomicAdd(counters[counter_node_visits], node_visits);
+    atomicAdd(counters[counter_box_tests], node_visits);
+    atomicAdd(counters[counter_triangle_tests], triangle_tests);
+    atomicAdd(counters[counter_lane_steps], node_visits);
+    atomicAdd(counters[counter_subgroup_steps], subgroup_steps);
+  }
+  flush_counters();
+}

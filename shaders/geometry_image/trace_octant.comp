@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The links ordered by direction octant (the paper's section 6, "optimized link hierarchies"), computed from the node's
+// index and two bits a level instead of stored: near children first, still without a stack.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#include "geometry_image/trace.glsl"
+
+void main() {
+  uint index = invocation();
+  if (index >= push.rays) return;
+  Ray ray = load_ray(index);
+  Slabs slabs = make_slabs(ray, scene_extent());
+  Hit best;
+  uvec4 state;
+  if (!begin_ray(index, ray, best, state)) return;
+
+  Walk walk;
+  walk.order = state.x;
+  walk.turns = state.y;
+  walk.depth = state.z;
+  uint octant_shift = 2u * slabs.octant;
+  bool walking = !(ray.tmax < 0.0);
+  uint budget = push.budget;
+  while (walking) {
+    bool at_leaf = false;
+    float enter = 0.0;
+    uint texel = 0u;
+    uint stride = 0u;
+    while (walking && !at_leaf) {
+      uint address = walk_address(walk);
+      uvec4 lo;
+      uvec4 hi;
+      LOAD4(lo, nodes_lo, address);
+      LOAD4(hi, nodes_hi, address);
+      count_step();
+      enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
+      bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+      at_leaf = inside && walk.depth == push.depth;
+      texel = lo.w & ~leaf_flag;
+      stride = hi.w;
+      if (!at_leaf) {
+        if (inside) {
+          walk = walk_down(walk, (lo.w >> octant_shift) & 3u);
+        } else {
+          walk = walk_on(walk);
+        }
+        budget -= 1u;
+        walking = walk.depth != walk_done && budget != 0u;
+      }
+    }
+    if (at_leaf) {
+      test_leaf(texel, stride, ray, enter, best);
+      walk = walk_on(walk);
+      if (any_hit != 0u && best.primitive != no_index) walk.depth = walk_done;
+      budget -= 1u;
+      walking = walk.depth != walk_done && budget != 0u;
+    }
+  }
+  bool finished = walk.depth == walk_done || ray.tmax < 0.0;
+  state = uvec4(walk.order, walk.turns, walk.depth, finished ? trace_finished : trace_unfinished);
+  end_ray(index, ray, best, state);
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The paper's traversal (figure 6): follow hit and miss links, one order for all rays, no stack.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#include "geometry_image/trace.glsl"
+
+void main() {
+  uint index = invocation();
+  if (index >= push.rays) return;
+  Ray ray = load_ray(index);
+  Slabs slabs = make_slabs(ray, scene_extent());
+  Hit best;
+  uvec4 state;
+  if (!begin_ray(index, ray, best, state)) return;
+
+  uint link = state.x;
+  bool walking = !(ray.tmax < 0.0);
+  uint budget = push.budget;
+  while (walking) {
+    // Nodes until a leaf is entered. On a device that runs both sides of every branch, leaves wait for each other here.
+    bool at_leaf = false;
+    float enter = 0.0;
+    uint miss = 0u;
+    uint texel = 0u;
+    uint stride = 0u;
+    while (walking && !at_leaf) {
+      uvec4 lo;
+      uvec4 hi;
+      uint hit;
+      LOAD4(lo, nodes_lo, link);
+      LOAD4(hi, nodes_hi, link);
+      LOAD1(hit, links, 2u * link);
+      LOAD1(miss, links, 2u * link + 1u);
+      count_step();
+      enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
+      bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+      at_leaf = inside && (hit & leaf_flag) != 0u;
+      texel = hit & ~leaf_flag;
+      stride = hi.w;
+      if (!at_leaf) {
+        link = inside ? hit : miss;
+        budget -= 1u;
+        walking = link != 0u && budget != 0u;
+      }
+    }
+    if (at_leaf) {
+      test_leaf(texel, stride, ray, enter, best);
+      link = any_hit != 0u && best.primitive != no_index ? 0u : miss;
+      budget -= 1u;
+      walking = link != 0u && budget != 0u;
+    }
+  }
+  state = uvec4(link, 0u, 0u, link == 0u || ray.tmax < 0.0 ? trace_finished : trace_unfinished);
+  end_ray(index, ray, best, state);
+}

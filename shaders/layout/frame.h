@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// What the host uploads: once per scene the tables, once per frame camera and lights (and weights and matrices, see
+// geometry_image/blend). Scalar layout: no padding but what is written here.
+#ifndef LODESTONE_LAYOUT_FRAME_H
+#define LODESTONE_LAYOUT_FRAME_H
+
+#include "layout/types.h"
+
+LODESTONE_LAYOUT_BEGIN
+
+struct FrameRecord {
+  vec3 origin;  // see render::View
+  uint perspective;
+  vec3 right;
+  uint width;
+  vec3 up;
+  uint height;
+  vec3 forward;
+  uint seed;
+  vec3 sky_top;
+  uint spp;
+  vec3 sky_horizon;
+  uint filmic;
+  vec3 sky_bottom;
+  float exposure;  // 2^stops
+};
+
+CONST uint light_directional = 0u;
+CONST uint light_point = 1u;
+CONST uint light_spot = 2u;
+CONST uint light_sky = 3u;
+
+struct LightRecord {
+  vec3 position;
+  uint kind;
+  vec3 direction;  // of the light's rays, unit length
+  float range;     // 0: infinite
+  vec3 color;      // times intensity
+  float cone_scale;   // spot: 1 / (cos inner - cos outer) ...
+  float cone_offset;  // ... and -cos outer times that
+  uint pad0;
+  uint pad1;
+  uint pad2;
+};
+
+struct MaterialRecord {
+  vec4 base_color;
+  vec3 emissive;
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float occlusion_strength;
+  float alpha_cutoff;
+  uint alpha_mask;
+  uint base_color_texture;  // no_index: none
+  uint metallic_roughness_texture;
+  uint normal_texture;
+  uint occlusion_texture;
+  uint emissive_texture;
+  uint pad0;
+  uint pad1;
+};
+
+CONST uint wrap_repeat = 0u;
+CONST uint wrap_clamp = 1u;
+CONST uint wrap_mirror = 2u;
+
+struct TextureRecord {
+  uint first_texel;  // in the image buffer: RGBA8, R lowest
+  uint width;
+  uint height;
+  uint texcoord;
+  uint wrap_u;
+  uint wrap_v;
+  uint nearest;
+  uint pad0;
+  vec3 u_row;
+  float pad1;
+  vec3 v_row;
+  float pad2;
+};
+
+struct PartRecord {
+  uint material;
+  uint mesh;
+  uint first_triangle;
+  uint first_mesh_triangle;
+};
+
+// Rays are numbered in tiles of 8 x 8 pixels, Morton order within a tile, so that neighbours in a subgroup are
+// neighbours in the picture.
+struct RayPush {
+  uint first_ray;  // of the batch
+  uint rays;
+  uint sample_index;
+  uint centered;   // 1: through pixel centres
+  uint light;
+  uint first;      // 1: the pass starts a sum, 0: it adds to one
+};
+
+struct ResolvePush {
+  uint first_ray;
+  uint rays;
+};
+
+struct BlendPush {
+  uint vertices;
+  uint tangents;  // 1: there are some
+};
+
+struct CountPush {
+  uint count;
+};
+
+struct BoundsPush {
+  uint depth;    // of the nodes that are read: the leaves, or a level above
+  uint count;    // places on that level that may be read
+  uint written;  // places of the next level to write ...
+  uint written_above;  // ... and of the one above that
+};
+
+FN uint tile_count(uint size) { return (size + 7u) / 8u; }
+
+LODESTONE_LAYOUT_END
+#endif

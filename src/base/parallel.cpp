@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#ifndef LODESTONE_STD_THREADS
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace lodestone {
+namespace {
+std::atomic<uint32_t> threads_wanted{0};
+}
+
+void set_thread_count(uint32_t threads) { threads_wanted = threads; }
+
+uint32_t thread_count() {
+  const uint32_t wanted = threads_wanted;
+  return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+}
+
+void parallel_for(uint64_t count, uint64_t grain, const std::function<void(uint64_t, uint64_t)>& body) {
+  const uint64_t blocks = (count + grain - 1) / grain;
+  const auto run_block = [&](uint64_t block) { body(block * grain, std::min(count, (block + 1) * grain)); };
+  const uint32_t threads = static_cast<uint32_t>(std::min<uint64_t>(thread_count(), blocks));
+  if (threads <= 1) {
+    for (uint64_t block = 0; block < blocks; ++block) run_block(block);
+    return;
+  }
+#ifdef LODESTONE_STD_THREADS
+  std::atomic<uint64_t> next{0};
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
+      for (uint64_t block = next++; block < blocks; block = next++) run_block(block);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = blocks;
+    }
+  };
+  std::vector<std::thread> workers;
+  for (uint32_t i = 1; i < threads; ++i) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  if (failure) std::rethrow_exception(failure);
+#else
+  tbb::task_arena arena(static_cast<int>(threads));
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, blocks, 1), [&](const tbb::blocked_range<uint64_t>& range) {
+      for (uint64_t block = range.begin(); block != range.end(); ++block) run_block(block);
+    });
+  });
+#endif
+}
+
+}  // namespace lodestone

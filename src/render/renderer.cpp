@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "lodestone/base/error.h"
+#include "lodestone/layout/frame.h"
+#include "lodestone/layout/links.h"
+#include "lodestone/layout/trace.h"
+#include "lodestone/render/film.h"
+#include "lodestone/render/hierarchy_levels.h"
+#include "lodestone/render/passes.h"
+#include "lodestone/render/scene_tables.h"
+#include "lodestone/render/view.h"
+
+namespace lodestone::render {
+namespace {
+
+constexpr uint32_t batch_rays = 1u << 18;
+
+template <class T>
+void download_all(Backend& backend, const Buffer& buffer, std::vector<T>& items) {
+  backend.download(buffer.id(), std::as_writable_bytes(std::span(items)), 0);
+}
+
+// The rays of one kind (primary, or to a light) and what they found.
+struct RayBuffers {
+  RayBuffers() = default;
+  RayBuffers(Backend& backend, const char* prefix, uint64_t count)
+      : rays(backend, {std::string(prefix) + "rays", 2 * count, 16}),
+        hits(backend, {std::string(prefix) + "hits", count, 16}),
+        states(backend, {std::string(prefix) + "states", count, 16}),
+        steps(backend, {std::string(prefix) + "steps", count, 4}) {}
+  Buffer rays, hits, states, steps;
+};
+
+}  // namespace
+
+struct Renderer::State {
+  Backend& backend;
+  const scene::Scene& scene;
+  const scene::Assembly& assembly;
+  const geometry_image::Atlas& atlas;
+  Settings settings;
+  Traversal traversal;
+  HierarchyLevels levels;
+  SceneTables tables;
+  std::vector<PassRecord> setup;
+
+  // Rewritten every frame.
+  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map, nodes_lo, nodes_hi, links;
+  Buffer frame, lights, pending;
+  RayBuffers primary, shadow, loaded;
+  uint32_t loaded_rays = 0;
+  Buffer contributions, radiance, beauty, display, aovs;
+
+  State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
+        const geometry_image::Atlas& atlas_in, const Settings& settings_in);
+
+  uint32_t total_rays() const {
+    return 64 * layout::tile_count(settings.width) * layout::tile_count(settings.height);
+  }
+
+  template <class Push>
+  void run(const PassDecl& pass, const std::vector<BufferId>& buffers, const Push& push, uint32_t invocations,
+           std::array<uint32_t, pass_constants> constants = {}) {
+    backend.run({&pass, buffers, std::as_bytes(std::span(&push, 1)), invocations, constants});
+  }
+
+  std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
+    std::vector<BufferId> ids = {rays.hits.id(),         geometry.id(),         normal_map.id(),
+                                 tables.texel_map.id(),  tables.triangles.id(), positions.id(),
+                                 normals.id(),           tangents.id(),         tables.texcoords.id(),
+                                 tables.images.id(),     tables.srgb_table.id(), tables.charts.id(),
+                                 tables.parts.id(),      tables.materials.id(), tables.textures.id(),
+                                 frame.id()};
+    ids.insert(ids.end(), more);
+    return ids;
+  }
+
+  void build_links();
+  void update(const scene::Pose& pose);
+  void build_bounds();
+  void begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count);
+  void trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps);
+  void trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps);
+  uint32_t take_pending();
+  bool render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count, const std::function<bool()>& interrupted);
+};
+
+Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
+                       const geometry_image::Atlas& atlas_in, const Settings& settings_in)
+    : backend(device),
+      scene(scene_in),
+      assembly(assembly_in),
+      atlas(atlas_in),
+      settings(settings_in),
+      traversal(settings_in.traversal),
+      levels(atlas_in.depth, static_cast<uint32_t>(atlas_in.leaf_map.size())),
+      tables(device, scene_in, assembly_in, atlas_in) {
+  check_aovs(settings.aovs);
+  const bool cpu = device.info().kind == "cpu";
+  if (traversal == Traversal::automatic) traversal = cpu ? Traversal::wide : Traversal::octant;
+  if (traversal == Traversal::wide && !cpu) {
+    fail(ExitCode::usage, "--traversal wide", "runs on the CPU only; use threaded or octant on this device");
+  }
+  const uint64_t vertices = assembly.positions.size(), texels = atlas.texel_map.size();
+  weights = Buffer(device, {"weights", assembly.weight_count, 4});
+  matrices = Buffer(device, {"matrices", 3 * uint64_t(assembly.matrix_count), 16});
+  positions = Buffer(device, {"positions", vertices, 16});
+  normals = Buffer(device, {"normals", vertices, 16});
+  tangents = Buffer(device, {"tangents", vertices, 16});
+  geometry = Buffer(device, {"geometry", texels, 16});
+  normal_map = Buffer(device, {"normal_map", texels, 16});
+  nodes_lo = Buffer(device, {"nodes_lo", levels.nodes(), 16});
+  nodes_hi = Buffer(device, {"nodes_hi", levels.nodes(), 16});
+  links = Buffer(device, {"links", 2 * levels.nodes(), 4});
+  pending = Buffer(device, {"pending", 1, 4});
+  frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
+  const uint32_t rays = std::min(batch_rays, total_rays());
+  const uint64_t pixels = uint64_t(settings.width) * settings.height;
+  primary = RayBuffers(device, "", rays);
+  shadow = RayBuffers(device, "shadow_", rays);
+  contributions = Buffer(device, {"contributions", rays, 16});
+  radiance = Buffer(device, {"radiance", rays, 16});
+  beauty = Buffer(device, {"beauty", pixels, 16});
+  display = Buffer(device, {"display", pixels, 16});
+  aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
+  build_links();
+  setup = device.finish();
+}
+
+void Renderer::State::build_links() {
+  for (uint32_t level = 0; level <= levels.depth(); ++level) {
+    // Only nodes above a slot in use: the siblings behind them are empty and never linked to.
+    const uint32_t shift = 2 * (levels.depth() - level);
+    const auto used = static_cast<uint32_t>((uint64_t(levels.slots()) + (uint64_t(1) << shift) - 1) >> shift);
+    run(passes::links, {tables.leaf_map.id(), links.id()},
+        layout::LinksPush{level, levels.depth(), used, levels.slots()}, used);
+  }
+}
+
+// blend, rasterise, bounds: everything that follows from the pose.
+void Renderer::State::update(const scene::Pose& pose) {
+  const std::vector<float> frame_weights = scene::frame_weights(scene, assembly, pose);
+  const std::vector<glm::vec4> frame_matrices = scene::frame_matrices(scene, assembly, pose);
+  if (!frame_weights.empty()) backend.upload(weights.id(), std::as_bytes(std::span(frame_weights)));
+  backend.upload(matrices.id(), std::as_bytes(std::span(frame_matrices)));
+  const auto vertices = static_cast<uint32_t>(assembly.positions.size());
+  run(passes::blend,
+      {tables.base_positions.id(), tables.base_normals.id(), tables.base_tangents.id(), tables.vertex_ranges.id(),
+       tables.morph_positions.id(), tables.morph_normals.id(), tables.morph_tangents.id(), tables.influences.id(),
+       weights.id(), matrices.id(), positions.id(), normals.id(), tangents.id()},
+      layout::BlendPush{vertices, assembly.has_tangents ? 1u : 0u}, vertices);
+  const auto texels = static_cast<uint32_t>(atlas.texel_map.size());
+  run(passes::rasterise,
+      {tables.texel_map.id(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
+      layout::CountPush{texels}, texels);
+  build_bounds();
+}
+
+void Renderer::State::build_bounds() {
+  const uint32_t depth = levels.depth();
+  run(passes::bounds_leaves, {tables.leaf_map.id(), geometry.id(), nodes_lo.id(), nodes_hi.id()},
+      layout::BoundsPush{depth, levels.slots(), levels.places(depth), levels.places(depth - 1)},
+      levels.places(depth - 1));
+  for (uint32_t level = depth - 1; level > 0;) {
+    const bool two = level >= 2;
+    const layout::BoundsPush push{level, levels.places(level), levels.places(level - 1),
+                                  two ? levels.places(level - 2) : 0};
+    run(passes::bounds, {nodes_lo.id(), nodes_hi.id()}, push, two ? push.written_above : push.written);
+    level -= two ? 2 : 1;
+  }
+}
+
+void Renderer::State::begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count) {
+  scene::Sky sky;
+  const auto records = frame_lights(scene, pose, view, sky);
+  light_count = static_cast<uint32_t>(records.size());
+  lights = make_buffer(backend, "lights", sizeof(layout::LightRecord), records);
+  layout::FrameRecord record{};
+  record.origin = view.origin;
+  record.right = view.right;
+  record.up = view.up;
+  record.forward = view.forward;
+  record.perspective = view.perspective ? 1 : 0;
+  record.width = settings.width;
+  record.height = settings.height;
+  record.seed = settings.seed;
+  record.spp = settings.spp;
+  record.sky_top = sky.top;
+  record.sky_horizon = sky.horizon;
+  record.sky_bottom = sky.bottom;
+  record.filmic = settings.view == ViewTransform::filmic ? 1 : 0;
+  record.exposure = std::exp2(settings.exposure);
+  backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
+}
+
+uint32_t Renderer::State::take_pending() {
+  uint32_t count = 0;
+  backend.download(pending.id(), std::as_writable_bytes(std::span(&count, 1)), 0);
+  return count;
+}
+
+// All rays to their end, in as many dispatches as the budget of each needs.
+void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps) {
+  const PassDecl* closest[] = {nullptr, &passes::trace_threaded, &passes::trace_octant, &passes::trace_wide};
+  const PassDecl* any[] = {nullptr, &passes::occlude_threaded, &passes::occlude_octant, &passes::occlude_wide};
+  const bool occlusion = &rays == &shadow;
+  const PassDecl& pass = *(occlusion ? any : closest)[static_cast<uint32_t>(traversal)];
+  const std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo.id(),    nodes_hi.id(),
+                                         geometry.id(),    links.id(),       rays.hits.id(),
+                                         rays.states.id(), rays.steps.id(), pending.id()};
+  const uint32_t zero = 0;
+  layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget};
+  do {
+    backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
+    run(pass, buffers, push, count, {any_hit ? 1u : 0u, steps ? 1u : 0u});
+    push.resume = 1;
+  } while (take_pending() != 0);
+}
+
+// The same where materials cut out texels: hits on those are passed through until none is left. The nearest hit has to be
+// found each time, also for shadow rays.
+void Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps) {
+  trace(rays, count, any_hit && !tables.has_masks, steps);
+  if (!tables.has_masks) return;
+  do {
+    run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), pending.id()}),
+        layout::CountPush{count}, count);
+    if (take_pending() == 0) return;
+    trace(rays, count, false, steps);
+  } while (true);
+}
+
+// All samples of a run of pixels. False: interrupted.
+bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count,
+                                   const std::function<bool()>& interrupted) {
+  if (!settings.aovs.empty()) {
+    const layout::RayPush push{first_ray, count, 0, 1, 0, 1};
+    run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
+    trace_masked(primary, count, false, true);
+    run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push, count);
+  }
+  for (uint32_t sample = 0; sample < settings.spp; ++sample) {
+    layout::RayPush push{first_ray, count, sample, settings.spp == 1 ? 1u : 0u, 0, sample == 0 ? 1u : 0u};
+    run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
+    trace_masked(primary, count, false, false);
+    for (uint32_t light = 0; light < light_count; ++light) {
+      if (interrupted && interrupted()) return false;
+      push.light = light;
+      run(passes::shade,
+          surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
+          push, count);
+      trace_masked(shadow, count, true, false);
+      run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count}, count);
+    }
+  }
+  run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()}, layout::ResolvePush{first_ray, count},
+      count);
+  return true;
+}
+
+Renderer::Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
+                   const geometry_image::Atlas& atlas, const Settings& settings)
+    : state_(std::make_unique<State>(backend, scene, assembly, atlas, settings)) {}
+
+Renderer::~Renderer() = default;
+
+std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View& view,
+                                            const std::function<bool()>& interrupted) {
+  State& s = *state_;
+  const auto start = std::chrono::steady_clock::now();
+  uint32_t light_count = 0;
+  s.begin_frame(pose, view, light_count);
+  s.update(pose);
+  const uint32_t total = s.total_rays();
+  for (uint32_t first = 0; first < total; first += batch_rays) {
+    if (!s.render_batch(first, std::min(batch_rays, total - first), light_count, interrupted)) {
+      s.backend.finish();
+      return std::nullopt;
+    }
+  }
+  FrameResult result;
+  std::vector<glm::vec4> pixels(size_t(s.settings.width) * s.settings.height);
+  download_all(s.backend, s.beauty, pixels);
+  result.linear = make_color_image(s.settings, pixels);
+  download_all(s.backend, s.display, pixels);
+  result.display = make_color_image(s.settings, pixels);
+  if (!s.settings.aovs.empty()) {
+    std::vector<glm::uvec4> quads(4 * pixels.size());
+    download_all(s.backend, s.aovs, quads);
+    add_aovs(s.settings, quads, result.linear);
+  }
+  result.passes = s.backend.finish();
+  result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+std::vector<PassRecord> Renderer::setup_passes() const { return state_->setup; }
+Traversal Renderer::traversal() const { return state_->traversal; }
+void Renderer::update(const scene::Pose& pose) { state_->update(pose); }
+
+void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
+  State& s = *state_;
+  s.loaded_rays = static_cast<uint32_t>(rays.size() / 2);
+  s.loaded = RayBuffers(s.backend, "loaded_", s.loaded_rays);
+  s.backend.upload(s.loaded.rays.id(), std::as_bytes(std::span(rays)));
+}
+
+void Renderer::trace_loaded() { state_->trace(state_->loaded, state_->loaded_rays, false, false); }
+
+std::vector<glm::uvec4> Renderer::hits() {
+  std::vector<glm::uvec4> hits(state_->loaded_rays);
+  download_all(state_->backend, state_->loaded.hits, hits);
+  return hits;
+}
+
+const char* to_string(Traversal traversal) {
+  const char* names[] = {"auto", "threaded", "octant", "wide"};
+  return names[static_cast<uint32_t>(traversal)];
+}
+
+}  // namespace lodestone::render

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/render/scene_tables.h"
+
+#include <cmath>
+
+#include "lodestone/layout/frame.h"
+
+namespace lodestone::render {
+namespace {
+
+using glm::uvec4;
+using glm::vec3;
+using glm::vec4;
+
+uvec4 bits(const vec3& v, uint32_t w) {
+  return {std::bit_cast<uint32_t>(v.x), std::bit_cast<uint32_t>(v.y), std::bit_cast<uint32_t>(v.z), w};
+}
+
+void upload_vertices(SceneTables& tables, Backend& backend, const scene::Assembly& assembly) {
+  const size_t count = assembly.positions.size();
+  std::vector<uvec4> quads(count);
+  for (size_t i = 0; i < count; ++i) quads[i] = bits(assembly.positions[i], 0);
+  tables.base_positions = make_buffer(backend, "base_positions", 16, quads);
+  for (size_t i = 0; i < count; ++i) quads[i] = bits(assembly.normals[i], assembly.colors[i]);
+  tables.base_normals = make_buffer(backend, "base_normals", 16, quads);
+  for (size_t i = 0; i < count; ++i) {
+    quads[i] = uvec4(assembly.first_morph[i], assembly.first_morph[i + 1], assembly.first_influence[i],
+                     assembly.first_influence[i + 1]);
+  }
+  tables.vertex_ranges = make_buffer(backend, "vertex_ranges", 16, quads);
+  for (size_t i = 0; i < count; ++i) {
+    const glm::vec2 a = assembly.texcoords[0][i], b = assembly.texcoords[1][i];
+    quads[i] = bits({a.x, a.y, b.x}, std::bit_cast<uint32_t>(b.y));
+  }
+  tables.texcoords = make_buffer(backend, "texcoords", 16, quads);
+  quads.clear();
+  if (assembly.has_tangents) {
+    for (const vec4& t : assembly.tangents) quads.push_back(bits(vec3(t), std::bit_cast<uint32_t>(t.w)));
+  }
+  tables.base_tangents = make_buffer(backend, "base_tangents", 16, quads);
+}
+
+void upload_deltas(SceneTables& tables, Backend& backend, const scene::Assembly& assembly) {
+  std::vector<uvec4> quads;
+  quads.reserve(assembly.morphs.size());
+  for (const scene::MorphEntry& morph : assembly.morphs) {
+    const uvec4 p = bits(morph.position, 0);
+    quads.emplace_back(morph.weight, p.x, p.y, p.z);
+  }
+  tables.morph_positions = make_buffer(backend, "morph_positions", 16, quads);
+  for (size_t i = 0; i < quads.size(); ++i) quads[i] = bits(assembly.morphs[i].normal, 0);
+  tables.morph_normals = make_buffer(backend, "morph_normals", 16, quads);
+  if (!assembly.has_tangents) quads.clear();
+  for (size_t i = 0; i < quads.size(); ++i) quads[i] = bits(assembly.morphs[i].tangent, 0);
+  tables.morph_tangents = make_buffer(backend, "morph_tangents", 16, quads);
+  static_assert(sizeof(scene::MatrixInfluence) == 8);
+  tables.influences = make_buffer(backend, "influences", 4, assembly.influences);
+}
+
+std::vector<layout::MaterialRecord> material_records(const scene::Scene& scene,
+                                                     std::vector<layout::TextureRecord>& textures,
+                                                     const std::vector<uint32_t>& image_offsets) {
+  const auto add_texture = [&](const scene::Texture& texture) -> uint32_t {
+    if (texture.image == scene::none) return layout::no_index;
+    const scene::Image& image = scene.images[texture.image];
+    layout::TextureRecord record{};
+    record.first_texel = image_offsets[texture.image];
+    record.width = image.width;
+    record.height = image.height;
+    record.texcoord = texture.texcoord;
+    record.wrap_u = static_cast<uint32_t>(texture.wrap_u);
+    record.wrap_v = static_cast<uint32_t>(texture.wrap_v);
+    record.nearest = texture.nearest ? 1 : 0;
+    record.u_row = texture.u_row;
+    record.v_row = texture.v_row;
+    textures.push_back(record);
+    return static_cast<uint32_t>(textures.size() - 1);
+  };
+  std::vector<layout::MaterialRecord> records;
+  for (const scene::Material& material : scene.materials) {
+    layout::MaterialRecord record{};
+    record.base_color = material.base_color;
+    record.emissive = material.emissive;
+    record.metallic = material.metallic;
+    record.roughness = material.roughness;
+    record.normal_scale = material.normal_scale;
+    record.occlusion_strength = material.occlusion_strength;
+    record.alpha_cutoff = material.alpha_cutoff;
+    record.alpha_mask = material.alpha_mask ? 1 : 0;
+    record.base_color_texture = add_texture(material.base_color_texture);
+    record.metallic_roughness_texture = add_texture(material.metallic_roughness_texture);
+    record.normal_texture = add_texture(material.normal_texture);
+    record.occlusion_texture = add_texture(material.occlusion_texture);
+    record.emissive_texture = add_texture(material.emissive_texture);
+    records.push_back(record);
+  }
+  // Parts without a material are of this one.
+  layout::MaterialRecord grey{};
+  grey.base_color = vec4(0.7f, 0.7f, 0.7f, 1);
+  grey.roughness = 0.6f;
+  grey.base_color_texture = grey.metallic_roughness_texture = grey.normal_texture = layout::no_index;
+  grey.occlusion_texture = grey.emissive_texture = layout::no_index;
+  records.push_back(grey);
+  return records;
+}
+
+void upload_shading(SceneTables& tables, Backend& backend, const scene::Scene& scene,
+                    const scene::Assembly& assembly) {
+  std::vector<uint32_t> texels, offsets;
+  for (const scene::Image& image : scene.images) {
+    offsets.push_back(static_cast<uint32_t>(texels.size()));
+    for (size_t i = 0; i + 4 <= image.rgba.size(); i += 4) {
+      texels.push_back(uint32_t(image.rgba[i]) | uint32_t(image.rgba[i + 1]) << 8 | uint32_t(image.rgba[i + 2]) << 16 |
+                       uint32_t(image.rgba[i + 3]) << 24);
+    }
+  }
+  tables.images = make_buffer(backend, "images", 4, texels);
+  std::vector<float> srgb(256);
+  for (int i = 0; i < 256; ++i) {
+    const double x = i / 255.0;
+    srgb[i] = static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+  }
+  tables.srgb_table = make_buffer(backend, "srgb_table", 4, srgb);
+
+  std::vector<layout::TextureRecord> textures;
+  const auto materials = material_records(scene, textures, offsets);
+  const auto grey = static_cast<uint32_t>(materials.size() - 1);
+  std::vector<layout::PartRecord> parts;
+  for (const scene::AssemblyPart& part : assembly.parts) {
+    parts.push_back({part.material == scene::none ? grey : part.material, part.mesh, part.first_triangle,
+                     part.first_mesh_triangle});
+    tables.has_masks = tables.has_masks || materials[parts.back().material].alpha_mask != 0;
+  }
+  tables.materials = make_buffer(backend, "materials", sizeof(layout::MaterialRecord), materials);
+  tables.textures = make_buffer(backend, "textures", sizeof(layout::TextureRecord), textures);
+  tables.parts = make_buffer(backend, "parts", sizeof(layout::PartRecord), parts);
+}
+
+}  // namespace
+
+SceneTables::SceneTables(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
+                         const geometry_image::Atlas& atlas) {
+  upload_vertices(*this, backend, assembly);
+  upload_deltas(*this, backend, assembly);
+  triangles = make_buffer(backend, "triangles", 16, assembly.triangles);
+  texel_map = make_buffer(backend, "texel_map", 16, atlas.texel_map);
+  leaf_map = make_buffer(backend, "leaf_map", 4, atlas.leaf_map);
+  charts = make_buffer(backend, "charts", sizeof(layout::ChartRecord), atlas.charts);
+  upload_shading(*this, backend, scene, assembly);
+}
+
+}  // namespace lodestone::render

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Everything static on the device: vertices and their deltas, the atlas, materials, textures. Uploaded once.
+#pragma once
+
+#include "lodestone/geometry_image/atlas.h"
+#include "lodestone/render/backend.h"
+#include "lodestone/scene/assembly.h"
+#include "lodestone/scene/scene.h"
+
+namespace lodestone::render {
+
+struct SceneTables {
+  SceneTables(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
+              const geometry_image::Atlas& atlas);
+
+  // Inputs of blend.
+  Buffer base_positions, base_normals, base_tangents, vertex_ranges;
+  Buffer morph_positions, morph_normals, morph_tangents, influences;
+  // The atlas.
+  Buffer triangles, texel_map, leaf_map, charts;
+  // Shading.
+  Buffer texcoords, parts, materials, textures, images, srgb_table;
+  bool has_masks = false;  // some material cuts out texels
+};
+
+// Buffers of `name` filled with an array; arrays may be empty.
+template <class T>
+Buffer make_buffer(Backend& backend, const char* name, uint32_t element_bytes, const std::vector<T>& items) {
+  const auto bytes = std::as_bytes(std::span(items));
+  Buffer buffer(backend, {name, bytes.size() / element_bytes, element_bytes});
+  if (!bytes.empty()) backend.upload(buffer.id(), bytes);
+  return buffer;
+}
+
+}  // namespace lodestone::render

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/render/view.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "lodestone/base/error.h"
+
+namespace lodestone::render {
+namespace {
+
+using glm::vec3;
+
+View scene_view(const scene::Scene& scene, const scene::Pose& pose, uint32_t node, float aspect) {
+  const scene::Camera& camera = scene.cameras[scene.nodes[node].camera];
+  const glm::mat4& world = pose.node_world[node];
+  const vec3 x = glm::normalize(vec3(world[0])), y = glm::normalize(vec3(world[1])), z = glm::normalize(vec3(world[2]));
+  View view;
+  view.name = camera.name.empty() ? scene.nodes[node].name : camera.name;
+  view.origin = vec3(world[3]);
+  view.forward = -z;
+  view.perspective = camera.perspective;
+  if (camera.perspective) {
+    const float half = std::tan(camera.yfov / 2);
+    view.up = y * half;
+    view.right = x * (half * aspect);
+  } else {
+    view.up = y * camera.ymag;
+    view.right = x * (camera.ymag * aspect);
+  }
+  return view;
+}
+
+// From the front, a little from above and from the right, as near as all corners of the bounds allow.
+View auto_view(const scene::Bounds& bounds, float aspect) {
+  const vec3 lo = bounds.empty ? vec3(-1) : bounds.lo, hi = bounds.empty ? vec3(1) : bounds.hi;
+  const vec3 center = (lo + hi) * 0.5f;
+  const float size = std::max(glm::length(hi - lo), 1e-6f);
+  const vec3 back = glm::normalize(vec3(0.35f, 0.28f, 1.0f));
+  const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back)), up = glm::cross(back, right);
+  const float half = std::tan(0.5f * 0.6f);
+  const float half_x = half * aspect;
+  float distance = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const vec3 p = vec3(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z) - center;
+    const float along = glm::dot(p, back);
+    distance = std::max(distance, along + std::abs(glm::dot(p, right)) / half_x);
+    distance = std::max(distance, along + std::abs(glm::dot(p, up)) / half);
+  }
+  View view;
+  view.name = "auto";
+  view.origin = center + back * (distance * 1.04f + size * 1e-3f);
+  view.forward = -back;
+  view.right = right * half_x;
+  view.up = up * half;
+  return view;
+}
+
+layout::LightRecord light_record(const scene::Light& light, const glm::mat4& world) {
+  layout::LightRecord record{};
+  switch (light.kind) {
+    case scene::Light::Kind::directional: record.kind = layout::light_directional; break;
+    case scene::Light::Kind::point: record.kind = layout::light_point; break;
+    case scene::Light::Kind::spot: record.kind = layout::light_spot; break;
+  }
+  record.position = vec3(world[3]);
+  record.direction = -glm::normalize(vec3(world[2]));
+  record.range = light.range;
+  record.color = light.color * light.intensity;
+  const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+  record.cone_scale = 1.0f / std::max(inner - outer, 1e-3f);
+  record.cone_offset = -outer * record.cone_scale;
+  return record;
+}
+
+}  // namespace
+
+View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
+               const scene::Bounds& bounds, uint32_t width, uint32_t height) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  if (name == "auto") return auto_view(bounds, aspect);
+  uint32_t number = 0;
+  const bool numeric = !name.empty() && std::from_chars(name.data(), name.data() + name.size(), number).ptr ==
+                                            name.data() + name.size();
+  std::string known;
+  uint32_t index = 0;
+  for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+    if (scene.nodes[node].camera == scene::none) continue;
+    const View view = scene_view(scene, pose, node, aspect);
+    if (name.empty() || view.name == name || scene.nodes[node].name == name || (numeric && index == number)) return view;
+    known += (known.empty() ? "" : ", ") + (view.name.empty() ? std::to_string(index) : view.name);
+    ++index;
+  }
+  if (name.empty()) return auto_view(bounds, aspect);
+  fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto", known.empty() ? "none" : known);
+}
+
+std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose, const View& view,
+                                              scene::Sky& sky) {
+  std::vector<layout::LightRecord> lights;
+  for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+    if (scene.nodes[node].light == scene::none) continue;
+    const auto record = light_record(scene.lights[scene.nodes[node].light], pose.node_world[node]);
+    if (record.color != vec3(0)) lights.push_back(record);
+  }
+  sky = scene.sky.value_or(scene::Sky{});
+  if (lights.empty() && !scene.sky) {
+    sky = {vec3(0.55f, 0.65f, 0.85f), vec3(0.85f, 0.85f, 0.85f), vec3(0.25f, 0.22f, 0.2f)};
+    layout::LightRecord key{};
+    key.kind = layout::light_directional;
+    key.direction = glm::normalize(glm::normalize(view.forward) + 0.6f * glm::normalize(view.right) -
+                                   0.9f * glm::normalize(view.up));
+    key.color = vec3(2.2f, 2.1f, 1.95f);
+    lights.push_back(key);
+  }
+  if (lights.empty() || sky.top != vec3(0) || sky.horizon != vec3(0) || sky.bottom != vec3(0)) {
+    layout::LightRecord record{};
+    record.kind = layout::light_sky;
+    lights.push_back(record);
+  }
+  return lights;
+}
+
+}  // namespace lodestone::render
