@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The atlas: which charts there are, which point of the surface each texel samples, and where each quad stands in the
-// hierarchy. Static per scene and resolution; shaders/layout/atlas.h declares the buffers.
+// The atlas: which charts there are, which point of the surface each texel samples, and where each quad
+// stands in the hierarchy. Static per scene and resolution; shaders/layout/atlas.h declares the buffers.
 #pragma once
 
 #include <cstdint>
@@ -21,29 +21,32 @@ enum class AtlasKind : uint32_t { automatic, grid, exact };
 // What was found in the input and what was done about it; printed by `info` and `-v`.
 struct AtlasReport {
   uint64_t triangles = 0, quads = 0, texels = 0, slots = 0;
-  uint64_t degenerate_triangles = 0;  // zero area in the rest pose: kept where a pose can open them, else dropped
-  uint64_t duplicate_triangles = 0;   // the same three welded vertices in the same cyclic order: the first is kept
-  uint64_t non_manifold_edges = 0;    // more than two triangles: kept
-  uint64_t boundary_edges = 0;        // one triangle
+  uint64_t degenerate_triangles =
+      0;  // zero area in the rest pose: kept where a pose can open them, else dropped
+  uint64_t duplicate_triangles =
+      0;  // the same three welded vertices in the same cyclic order: the first is kept
+  uint64_t non_manifold_edges = 0;  // more than two triangles: kept
+  uint64_t boundary_edges = 0;      // one triangle
   uint64_t welded_vertices = 0;
-  std::vector<std::string> notes;     // one sentence each
+  std::vector<std::string> notes;  // one sentence each
   bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
 };
 
 struct Atlas {
   AtlasKind kind = AtlasKind::exact;
-  uint32_t depth = 0;       // the leaves' level: 4^depth >= slot count
-  std::vector<layout::ChartRecord> charts;   // in the order of mesh and triangle; texels ascend with them
-  std::vector<glm::uvec4> texel_map;         // see layout/atlas.h
-  std::vector<glm::uvec2> leaf_map;          // one a slot; the slots end with the last chart's block
+  uint32_t depth = 0;                       // the leaves' level: 4^depth >= slot count
+  std::vector<layout::ChartRecord> charts;  // in the order of mesh and triangle; texels ascend with them
+  std::vector<glm::uvec4> texel_map;        // see layout/atlas.h
+  std::vector<glm::uvec2> leaf_map;         // one a slot; the slots end with the last chart's block
   AtlasReport report;
 };
 
-// `grid` needs every placed mesh to be made of grids (else Error(usage)); `automatic` takes grid where they are, exact
-// for the rest (one atlas can hold charts of both kinds).
+// `grid` needs every placed mesh to be made of grids (else Error(usage)); `automatic` takes grid where they
+// are, exact for the rest (one atlas can hold charts of both kinds).
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
 
-// Baked files (.lode): header (magic, version, content hash, sizes), then the arrays zstd-compressed, then a checksum.
+// Baked files (.lode): header (magic, version, content hash, sizes), then the arrays zstd-compressed, then a
+// checksum.
 void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const std::string& content_hash);
 // Throws Error(bad_input) unless the file is whole, of this version, consistent in every index.
 Atlas load_atlas(const std::filesystem::path& path, std::string* content_hash = nullptr);
@@ -51,8 +54,10 @@ Atlas load_atlas(const std::filesystem::path& path, std::string* content_hash = 
 // The key of the cache: everything that the atlas is computed from.
 std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
 
-// From the cache folder ($LODESTONE_CACHE, else $XDG_CACHE_HOME/lodestone, else ~/.cache/lodestone) or built and put
-// there; a damaged or unwritable cache costs a note, never the run. An empty `cached` path is not filled in.
-Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind, bool* hit = nullptr);
+// From the cache folder ($LODESTONE_CACHE, else $XDG_CACHE_HOME/lodestone, else ~/.cache/lodestone) or built
+// and put there; a damaged or unwritable cache costs a note, never the run. An empty `cached` path is not
+// filled in.
+Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind,
+                   bool* hit = nullptr);
 
 }  // namespace lodestone::geometry_image

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// From the input mesh to an atlas (section 3.1 of the paper). Where the paper parameterises each surface over
+// a few large charts and resamples it, the two kinds here keep the input's own triangles: a mesh that is a
+// grid of samples already is a chart as it stands, and any other triangle becomes a small chart of its own.
+#include "lodestone/geometry_image/build.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lodestone/base/error.h"
+#include "lodestone/geometry_image/charts.h"
+#include "lodestone/geometry_image/notes.h"
+#include "lodestone/geometry_image/slots.h"
+#include "lodestone/geometry_image/triangle_survey.h"
+#include "lodestone/geometry_image/weld.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+// Which placements become grid charts.
+std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind) {
+  std::vector<bool> as_grid;
+  std::vector<bool> checked(scene.meshes.size(), false);
+  for (const scene::Placement& placement : assembly.placements) {
+    const scene::Mesh& mesh = scene.meshes[placement.mesh];
+    if (kind == AtlasKind::grid && mesh.grids.empty() && !mesh.triangles.empty()) {
+      fail(ExitCode::usage, "--atlas",
+           "grid needs meshes that are grids of samples, and mesh {} '{}' of {} is none; "
+           "use --atlas exact",
+           placement.mesh, mesh.name, scene.name);
+    }
+    as_grid.push_back(kind != AtlasKind::exact && !mesh.grids.empty());
+    if (as_grid.back() && !checked[placement.mesh]) {
+      check_grids(scene, mesh);
+      checked[placement.mesh] = true;
+    }
+  }
+  return as_grid;
+}
+
+// Middles of the charts' bounding boxes in the rest pose.
+std::vector<glm::vec3> chart_centers(const scene::Scene& scene, const scene::Assembly& assembly,
+                                     const std::vector<layout::ChartRecord>& charts) {
+  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+  const std::vector<glm::vec3> positions = scene::blended_positions(
+      assembly, scene::frame_weights(scene, assembly, rest), scene::frame_matrices(scene, assembly, rest));
+  std::vector<glm::vec3> centers(charts.size());
+  tbb::parallel_for(size_t(0), charts.size(), [&](size_t i) {
+    const size_t first = charts[i].first_triangle;
+    glm::vec3 lo = positions[assembly.triangles[first].x], hi = lo;
+    for (size_t t = first; t < first + triangle_count(charts[i]); ++t) {
+      for (glm::length_t corner = 0; corner < 3; ++corner) {
+        const glm::vec3& p = positions[assembly.triangles[t][corner]];
+        lo = glm::min(lo, p);
+        hi = glm::max(hi, p);
+      }
+    }
+    // A transform may overflow; the order then does not matter, but it must be one.
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+      const float middle = 0.5f * lo[axis] + 0.5f * hi[axis];
+      centers[i][axis] = std::isfinite(middle) ? middle : 0.0f;
+    }
+  });
+  return centers;
+}
+
+AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts) {
+  const auto is_grid = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_grid; };
+  if (std::all_of(charts.begin(), charts.end(), is_grid)) return AtlasKind::grid;
+  return std::any_of(charts.begin(), charts.end(), is_grid) ? AtlasKind::automatic : AtlasKind::exact;
+}
+
+// Welds and surveys; what these need is freed before the maps are made.
+std::vector<layout::ChartRecord> chart_surface(const scene::Scene& scene, const scene::Assembly& assembly,
+                                               AtlasKind kind, AtlasReport& report) {
+  const std::vector<bool> as_grid = choose_kinds(scene, assembly, kind);
+  const std::vector<uint32_t> welded = weld(assembly);
+  const TriangleSurvey survey = survey_triangles(scene, assembly, welded, as_grid);
+  for (uint32_t v = 0; v < welded.size(); ++v) report.welded_vertices += welded[v] == v ? 0 : 1;
+  report_survey(scene, assembly, survey, report);
+  std::vector<layout::ChartRecord> charts = make_charts(scene, assembly, survey, as_grid);
+  if (charts.empty()) {
+    fail_input(scene.name, "none of its {} triangles has an area in any pose; there is nothing to draw",
+               assembly.triangles.size());
+  }
+  return charts;
+}
+
+}  // namespace
+
+Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind) {
+  return build_atlas(scene, assembly, kind, ChartOrder::median);
+}
+
+Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind,
+                  ChartOrder order) {
+  Atlas atlas;
+  atlas.charts = chart_surface(scene, assembly, kind, atlas.report);
+  atlas.kind = kind_of(atlas.charts);
+  std::vector<glm::vec3> centers;
+  if (atlas.charts.size() > 1) centers = chart_centers(scene, assembly, atlas.charts);
+  const uint64_t slots = assign_slots(atlas.charts, centers, order, scene.name);
+  atlas.depth = tree_depth(slots);
+  atlas.texel_map = make_texel_map(atlas.charts);
+  atlas.leaf_map = make_leaf_map(atlas.charts, slots);
+  atlas.report.texels = atlas.texel_map.size();
+  atlas.report.slots = slots;
+  for (const layout::ChartRecord& chart : atlas.charts) {
+    atlas.report.quads += chart.kind == layout::chart_exact ? 3 : quad_count(chart);
+  }
+  return atlas;
+}
+
+}  // namespace lodestone::geometry_image

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The order in which the blocks of charts of one size follow one another. The tree over them is implicit (a
+// node has the next four nodes below it, four of four above that), so the order alone decides how tight its
+// boxes are.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+namespace lodestone::geometry_image {
+
+enum class ChartOrder : uint32_t {
+  median,  // split in the middle of the longest axis, again and again, at the places where the tree has
+           // borders
+  hilbert  // along a Hilbert curve through the bounds of all centers
+};
+
+struct ChartCenter {
+  glm::vec3 center{0};
+  uint32_t chart = 0;
+};
+
+// Orders a run of blocks; the first stands at place `first_place` of its level of the tree. Neither the order
+// in which they are given nor the number of threads shows. Centers must be finite, charts different.
+void order_charts(std::span<ChartCenter> run, uint64_t first_place, ChartOrder order);
+
+// For a run of `count` > 1 blocks at `first_place`: after how many to split it. A border of the largest
+// subtrees that the run spans, the one nearest to the middle.
+uint64_t aligned_split(uint64_t first_place, uint64_t count);
+
+// Place on the 3D Hilbert curve of 2^bits cells a side (bits at most 21); coordinates below 2^bits.
+uint64_t hilbert_index(glm::uvec3 cell, uint32_t bits);
+
+}  // namespace lodestone::geometry_image

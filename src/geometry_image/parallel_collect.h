@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Lists that many threads write and that come out in order all the same.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace lodestone::geometry_image {
+
+// Calls emit(i, list) for i in [0, count); it may push to the list. Returns the lists of ascending i, joined.
+// The number of threads does not show.
+template <class Value, class Emit>
+std::vector<Value> parallel_collect(uint64_t count, const Emit& emit) {
+  constexpr uint64_t block = 1u << 16;
+  const uint64_t blocks = (count + block - 1) / block;
+  std::vector<std::vector<Value>> lists(blocks);
+  tbb::parallel_for(uint64_t(0), blocks, [&](uint64_t b) {
+    const uint64_t end = std::min(count, (b + 1) * block);
+    for (uint64_t i = b * block; i < end; ++i) emit(i, lists[b]);
+  });
+  size_t total = 0;
+  for (const std::vector<Value>& list : lists) total += list.size();
+  std::vector<Value> joined;
+  joined.reserve(total);
+  for (std::vector<Value>& list : lists) {
+    joined.insert(joined.end(), list.begin(), list.end());
+    list = {};
+  }
+  return joined;
+}
+
+}  // namespace lodestone::geometry_image

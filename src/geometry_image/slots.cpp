@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/geometry_image/slots.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <bit>
+
+#include "lodestone/base/error.h"
+#include "lodestone/geometry_image/quad_order.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+constexpr uint64_t slot_limit = uint64_t(1) << (2 * layout::max_depth);
+
+}  // namespace
+
+uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers,
+                      ChartOrder order, const std::string& subject) {
+  uint64_t slots = 0;
+  for (const layout::ChartRecord& chart : charts) slots += QuadOrder::block_slots(chart);
+  if (slots > slot_limit) {
+    fail_input(subject,
+               "needs a hierarchy of {} leaf slots for {} charts, and {} is the most; draw fewer meshes, or "
+               "simplify them",
+               slots, charts.size(), slot_limit);
+  }
+  std::array<std::vector<ChartCenter>, layout::max_depth + 1> classes;  // by the power of 4
+  for (uint32_t i = 0; i < charts.size(); ++i) {
+    const auto power = static_cast<size_t>(std::bit_width(QuadOrder::block_slots(charts[i])) / 2);
+    classes[power].push_back({centers.empty() ? glm::vec3(0) : centers[i], i});
+  }
+  uint64_t next = 0;
+  for (size_t power = classes.size(); power-- > 0;) {
+    const uint64_t block = uint64_t(1) << (2 * power);
+    order_charts(classes[power], next / block, order);
+    for (const ChartCenter& placed : classes[power]) {
+      charts[placed.chart].first_slot = static_cast<uint32_t>(next);
+      charts[placed.chart].slot_count = static_cast<uint32_t>(block);
+      next += block;
+    }
+  }
+  return slots;
+}
+
+uint32_t tree_depth(uint64_t slots) {
+  uint32_t depth = 1;
+  while ((uint64_t(1) << (2 * depth)) < slots) ++depth;
+  return depth;
+}
+
+glm::uvec2 leaf_entry(const layout::ChartRecord& chart, uint32_t slot) {
+  constexpr glm::uvec2 empty{layout::empty_slot, 0};
+  const QuadOrder::Quad quad = QuadOrder(chart).quad(slot);
+  if (!quad.exists) return empty;
+  // The last quad of an exact chart would have a corner that is no texel.
+  if (chart.kind == layout::chart_exact && quad.x == 1 && quad.y == 1) return empty;
+  return {chart.first_texel + quad.y * chart.width + quad.x, chart.width};
+}
+
+std::vector<glm::uvec2> make_leaf_map(const std::vector<layout::ChartRecord>& charts, uint64_t slots) {
+  constexpr uint32_t grain = 1u << 14;
+  std::vector<glm::uvec2> map(slots);
+  tbb::parallel_for(size_t(0), charts.size(), [&](size_t i) {
+    const layout::ChartRecord& chart = charts[i];
+    const auto fill = [&](const tbb::blocked_range<uint32_t>& range) {
+      for (uint32_t slot = range.begin(); slot != range.end(); ++slot) {
+        map[size_t(chart.first_slot) + slot] = leaf_entry(chart, slot);
+      }
+    };
+    const tbb::blocked_range<uint32_t> all(0, chart.slot_count, grain);
+    if (all.is_divisible()) {
+      tbb::parallel_for(all, fill);
+    } else {
+      fill(all);
+    }
+  });
+  return map;
+}
+
+}  // namespace lodestone::geometry_image
