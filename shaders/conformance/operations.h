@@ -57,7 +57,7 @@ FN uint apply_integer(uint op, uvec4 u) {
   return uint(findMSB(u.x)) ^ (uint(findLSB(u.y)) << 8u) ^ (uint(bitCount(u.z)) << 16u) ^ bitfieldReverse(u.w);
 }
 
-FN uint apply_function(uint op, float x, float y, float z, float w) {
+FN uint apply_function(uint op, float x, float y, float z) {
   if (op == op_normalize) return mix_bits(normalize_or(vec3(x, y, z), vec3(1.0f, 2.0f, 3.0f)));
   if (op == op_exp2) return floatBitsToUint(exp2_(x));
   if (op == op_log2) return floatBitsToUint(log2_(x < 1e-30f ? 2.0f : x));
@@ -98,7 +98,7 @@ FN uint apply_operation(uint op, uvec4 u) {
   if (op == op_round_trip) return floatBitsToUint(x);
   if (op == op_half) return floatBitsToUint(x * 0.5f);
   if (op == op_reciprocal) return floatBitsToUint(1.0f / x);
-  if (op >= op_normalize) return apply_function(op, x, y, z, w);
+  if (op >= op_normalize) return apply_function(op, x, y, z);
   return apply_integer(op, u);
 }
 
