@@ -124,9 +124,11 @@ Image decode_image(std::span<const std::byte> bytes, const std::string& subject)
     fail_input(subject, "is a JPEG that is cut short; re-export it");
   }
   OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(bytes.data()), bytes.size());
-  const OIIO::ImageSpec config = unassociated_alpha();
-  const std::unique_ptr<OIIO::ImageInput> input =
-      OIIO::ImageInput::open("memory." + format, &config, &reader);
+  OIIO::ImageSpec config = unassociated_alpha();
+  void* proxy = static_cast<OIIO::Filesystem::IOProxy*>(&reader);
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR,
+                   &proxy);  // open() drops its own argument beside a config
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open("memory." + format, &config);
   if (!input) fail_input(subject, "cannot be decoded ({}); re-export it", one_line(OIIO::geterror()));
   return read_all(*input, bytes.size(), subject);
 }
