@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/report/pass_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lodestone::report {
+namespace {
+
+constexpr const char* row_format =
+    "{:<14} {:>7} {:>12} {:>7} {:>13} {:>10} {:>10} {:>12} {:>11} {:>10} {:>6}\n";
+
+std::string per_ray(uint64_t count, const Counters& counters) {
+  return counters.rays == 0 ? "-" : fmt::format("{:.2f}", double(count) / double(counters.rays));
+}
+
+std::string row(const PassSum& pass, std::optional<double> milliseconds, double total) {
+  const auto share = [&] {
+    return milliseconds && total > 0 ? fmt::format("{:.1f} %", 100 * *milliseconds / total)
+                                     : std::string("-");
+  };
+  const std::string time = milliseconds ? fmt::format("{:.3f}", *milliseconds) : "-";
+  if (!pass.counters)
+    return fmt::format(fmt::runtime(row_format), pass.name, pass.calls, time, share(), pass.invocations, "-",
+                       "-", "-", "-", "-", "-");
+  const Counters& counters = *pass.counters;
+  const std::optional<double> lanes = counters.active_lanes();
+  return fmt::format(fmt::runtime(row_format), pass.name, pass.calls, time, share(), pass.invocations,
+                     fmt::format("{:.2f}", double(counters.bytes_read) / 1e6),
+                     fmt::format("{:.2f}", double(counters.bytes_written) / 1e6),
+                     counters.rays == 0 ? "-" : std::to_string(counters.rays),
+                     per_ray(counters.node_visits, counters), per_ray(counters.triangle_tests, counters),
+                     lanes ? fmt::format("{:.2f}", *lanes) : "-");
+}
+
+}  // namespace
+
+std::string pass_table(const std::vector<PassSum>& passes) {
+  const bool device = std::any_of(passes.begin(), passes.end(),
+                                  [](const PassSum& pass) { return pass.device_ms.has_value(); });
+  const auto milliseconds = [&](const PassSum& pass) {
+    return device ? pass.device_ms : std::optional<double>(pass.wall_ms);
+  };
+  double total = 0;
+  for (const PassSum& pass : passes) total += milliseconds(pass).value_or(0);
+  std::string table =
+      fmt::format(fmt::runtime(row_format), "pass", "calls", device ? "device ms" : "wall ms", "share",
+                  "invocations", "MB read", "MB written", "rays", "visits/ray", "tests/ray", "lanes");
+  for (const PassSum& pass : passes) table += row(pass, milliseconds(pass), total);
+  return table;
+}
+
+}  // namespace lodestone::report
