@@ -26,10 +26,7 @@ class WordHash {
     state_ ^= state_ >> 32;
   }
   void add(float value) { add(uint64_t(std::bit_cast<uint32_t>(value + 0.0f))); }  // -0 as +0
-  uint64_t value() const {
-    const uint64_t mixed = state_ * 0x9fb21c651e98df25u;
-    return mixed ^ (mixed >> 29);
-  }
+  uint32_t value() const { return static_cast<uint32_t>((state_ * 0x9fb21c651e98df25u) >> 32); }
 
  private:
   static uint64_t seed() {
@@ -46,25 +43,25 @@ struct Buckets {
   std::vector<uint32_t> first;  // bucket b has items [first[b], first[b + 1])
 };
 
-template <class Hash>
-Buckets deal_out(uint32_t count, uint32_t bucket_bits, const Hash& hash) {
+// Deals the items out by the top `bucket_bits` (at least 1) of their hashes.
+inline Buckets deal_out(const std::vector<uint32_t>& hashes, uint32_t bucket_bits) {
   constexpr uint32_t block = 1u << 16;
+  const auto count = static_cast<uint32_t>(hashes.size());
   const uint32_t blocks = count / block + 1;
   const size_t buckets = size_t(1) << bucket_bits;
-  const auto bucket_of = [&](uint32_t item) {
-    return bucket_bits == 0 ? 0 : static_cast<size_t>(hash(item) >> (64 - bucket_bits));
-  };
   const auto for_each_block = [&](const auto& body) {
     tbb::parallel_for(uint32_t(0), blocks, [&](uint32_t b) {
       const auto end = static_cast<uint32_t>(std::min(uint64_t(count), (uint64_t(b) + 1) * block));
-      for (uint32_t item = b * block; item < end; ++item) body(b, item);
+      for (uint32_t item = b * block; item < end; ++item) {
+        body(item, b * buckets + (hashes[item] >> (32 - bucket_bits)));
+      }
     });
   };
 
   // Count the items of each block and bucket, turn the counts into places, then put every item into its
   // place.
   std::vector<uint32_t> places(blocks * buckets, 0);
-  for_each_block([&](uint32_t b, uint32_t item) { ++places[b * buckets + bucket_of(item)]; });
+  for_each_block([&](uint32_t, size_t cell) { ++places[cell]; });
   Buckets dealt;
   dealt.first.resize(buckets + 1, count);
   uint32_t next = 0;
@@ -77,38 +74,38 @@ Buckets deal_out(uint32_t count, uint32_t bucket_bits, const Hash& hash) {
     }
   }
   dealt.items.resize(count);
-  for_each_block(
-      [&](uint32_t b, uint32_t item) { dealt.items[places[b * buckets + bucket_of(item)]++] = item; });
+  for_each_block([&](uint32_t item, size_t cell) { dealt.items[places[cell]++] = item; });
   return dealt;
 }
 
 }  // namespace detail
 
 // For each item of [0, count) the lowest item that equals it (itself, where there is none lower).
-// hash(i) gives 64 bits, equal ones for equal items; equal(i, j) must be an equivalence. Both are called in
+// hash(i) gives 32 bits, equal ones for equal items; equal(i, j) must be an equivalence. Both are called in
 // parallel.
 template <class Hash, class Equal>
 std::vector<uint32_t> first_equal(uint32_t count, const Hash& hash, const Equal& equal) {
   constexpr uint32_t items_per_bucket = 1u << 14;
-  const auto bucket_bits = std::min<uint32_t>(10, uint32_t(std::bit_width(count / items_per_bucket)));
-  const detail::Buckets dealt = detail::deal_out(count, bucket_bits, hash);
+  const auto bucket_bits = std::clamp<uint32_t>(uint32_t(std::bit_width(count / items_per_bucket)), 1, 10);
+  std::vector<uint32_t> hashes(count);
+  tbb::parallel_for(uint32_t(0), count, [&](uint32_t item) { hashes[item] = hash(item); });
+  const detail::Buckets dealt = detail::deal_out(hashes, bucket_bits);
   std::vector<uint32_t> first(count);
   tbb::parallel_for(size_t(0), dealt.first.size() - 1, [&](size_t bucket) {
     const uint32_t begin = dealt.first[bucket], end = dealt.first[bucket + 1];
-    // Open addressing, at most half full. An entry is a part of the hash and the item; item numbers fall
-    // short of `free`.
+    // Open addressing, at most half full. An entry is a hash and an item; no item has the number that `free`
+    // would be.
     constexpr uint64_t free = ~uint64_t(0);
     const uint64_t mask = std::bit_ceil(2 * uint64_t(end - begin) + 1) - 1;
     std::vector<uint64_t> table(mask + 1, free);
     for (uint32_t i = begin; i < end; ++i) {
       const uint32_t item = dealt.items[i];
-      const uint64_t h = hash(item);
-      const uint64_t tag = h << 32;
-      for (uint64_t slot = (h >> 16) & mask;; slot = (slot + 1) & mask) {
+      const uint32_t h = hashes[item];
+      for (uint64_t slot = h & mask;; slot = (slot + 1) & mask) {
         const uint64_t entry = table[slot];
         const auto other = static_cast<uint32_t>(entry);
-        if (entry == free) table[slot] = tag | item;
-        if (entry == free || ((entry & ~uint64_t(0xffffffffu)) == tag && equal(item, other))) {
+        if (entry == free) table[slot] = (uint64_t(h) << 32) | item;
+        if (entry == free || (entry >> 32 == h && equal(item, other))) {
           first[item] = entry == free ? item : other;
           break;
         }

@@ -49,7 +49,7 @@ bool same_influences(const scene::Assembly& assembly, uint32_t a, uint32_t b) {
   return true;
 }
 
-uint64_t hash_vertex(const scene::Assembly& assembly, uint32_t vertex) {
+uint32_t hash_vertex(const scene::Assembly& assembly, uint32_t vertex) {
   WordHash hash;
   const auto add = [&](const glm::vec3& v) {
     hash.add(v.x);
