@@ -12,20 +12,22 @@
 namespace lodestone::scene {
 
 struct Pose {
-  std::vector<glm::mat4> node_world;          // one a node
-  std::vector<std::vector<float>> weights;    // one a node: its mesh's morph weights; empty without a mesh or targets
+  std::vector<glm::mat4> node_world;  // one a node
+  std::vector<std::vector<float>>
+      weights;  // one a node: its mesh's morph weights; empty without a mesh or targets
 };
 
-// Finds a clip by name (exact, then case-insensitive) or by number. Throws Error(usage) listing the clips of the
-// scene. An empty name gives the first clip, or `none` where the scene has no animation.
+// Finds a clip by name (exact, then case-insensitive) or by number. Throws Error(usage) listing the clips of
+// the scene. An empty name gives the first clip, or `none` where the scene has no animation.
 uint32_t find_animation(const Scene& scene, const std::string& name);
 
-// The pose at `time` seconds of animation `animation` (`none`: the rest pose). Time is clamped to each channel's
-// keys; callers that loop wrap it themselves. All three interpolations; rotations slerp along the shorter arc.
+// The pose at `time` seconds of animation `animation` (`none`: the rest pose). Time is clamped to each
+// channel's keys; callers that loop wrap it themselves. All three interpolations; rotations slerp along the
+// shorter arc. Throws Error(bad_input) where a node's world matrix or weights overflow.
 Pose evaluate(const Scene& scene, uint32_t animation, float time);
 
-// Sets the morph weights called `NAME` on every mesh that has a target of that name (`--weights NAME=X`; a number
-// is a target index of every mesh). Throws Error(usage) naming the known targets where nothing has it.
+// Sets the morph weights called `NAME` on every mesh that has a target of that name (`--weights NAME=X`; a
+// number is a target index of every mesh). Throws Error(usage) naming the known targets where nothing has it.
 void override_weights(const Scene& scene, const std::map<std::string, float>& weights, Pose& pose);
 
 // The matrices that take a vertex of node n's mesh to the world: for a mesh with a skin one a joint
@@ -38,8 +40,9 @@ struct Bounds {
   void include(const glm::vec3& point);
 };
 
-// World bounds of all meshes over the whole animation (sampled at `samples` times, vertices skinned and morphed on
-// the CPU; multi-threaded). With `none`, of the pose at time 0 with `pose_weights` applied.
+// World bounds of all meshes over the whole animation (sampled at `samples` times, vertices skinned and
+// morphed on the CPU; multi-threaded); with `none` those of the rest pose. Vertices that no triangle has do
+// not count. Throw Error(bad_input) where a vertex overflows.
 Bounds animation_bounds(const Scene& scene, uint32_t animation, uint32_t samples = 9);
 Bounds pose_bounds(const Scene& scene, const Pose& pose);
 
