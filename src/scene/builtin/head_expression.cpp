@@ -110,4 +110,11 @@ glm::vec3 turn_jaw(glm::vec3 point, float share, const Expression& e) {
   return jaw_hinge + glm::vec3(d.x, d.y * c - d.z * s, d.y * s + d.z * c);
 }
 
+glm::vec3 skin_point(Aim rest, const Expression& e, int lip, float lift) {
+  glm::vec3 p = head_point(rest + skin_slide(rest, e));
+  const float swell = skin_swell(rest, e) + lift;
+  if (swell != 0) p += swell * head_normal(p);
+  return turn_jaw(p, jaw_share(rest, lip), e);
+}
+
 }  // namespace lodestone::scene::builtin

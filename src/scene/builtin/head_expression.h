@@ -41,6 +41,10 @@ float jaw_share(Aim rest, int lip);
 // Turns a point about the hinge of the jaw by `share` of the expression's angle.
 glm::vec3 turn_jaw(glm::vec3 point, float share, const Expression& expression);
 
+// Where the skin that rests at an aim is, raised by `lift` along the normal: slides, swells, turns with the
+// jaw.
+glm::vec3 skin_point(Aim rest, const Expression& expression, int lip = 0, float lift = 0);
+
 // The line where the lips meet at rest, from -1 (right corner) to 1.
 Aim mouth_line(float across);
 inline constexpr float mouth_half_width = 0.34f;  // azimuth of its corners

@@ -65,4 +65,25 @@ void HeadSkin::pose_eye(const Ring& ring, float side, const Expression& e,
   }
 }
 
+void HeadSkin::color_eye(const Ring& ring, float side, std::vector<glm::vec4>& out) const {
+  const uint32_t around = uint32_t(ring.border.size()), half = around / 2;
+  const uint32_t quarter = uint32_t(ring.hi.y - ring.lo.y) / 2;
+  const glm::vec3 lash(0.05f, 0.018f, 0.012f), wet(0.62f, 0.25f, 0.20f);
+  for (uint32_t column = 0; column < around; ++column) {
+    const bool upper = (column + quarter) % around > half;
+    for (uint32_t row = 1; row < ring.rows; ++row) {
+      const Aim edge{side * 0.40f, 0.15f};
+      const Aim aim = aims_[ring.border[column]];
+      const float s = float(row) / float(skin_rows - 1);
+      glm::vec3 color = skin_color(aim + 0.5f * std::min(s, 1.0f) * (edge - aim));
+      if (row + 1 >= skin_rows) color = upper ? lash : wet;
+      if (row + 2 == skin_rows && upper) color = glm::mix(color, lash, 0.6f);
+      out[ring_vertex(ring, column, row)] = glm::vec4(color, 1);
+    }
+  }
+  for (int y = ring.lo.y + 1; y < ring.hi.y; ++y)
+    for (int x = ring.lo.x + 1; x < ring.hi.x; ++x)
+      out[lattice_.vertex({x, y, lattice_.cells().z})] = glm::vec4(wet, 1);
+}
+
 }  // namespace lodestone::scene::builtin

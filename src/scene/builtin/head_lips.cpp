@@ -71,4 +71,24 @@ void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm
   }
 }
 
+void HeadSkin::color_mouth(const Ring& ring, std::vector<glm::vec4>& out) const {
+  const glm::vec3 lip(0.62f, 0.19f, 0.16f), flesh(0.45f, 0.09f, 0.08f), throat(0.06f, 0.008f, 0.008f);
+  const uint32_t around = uint32_t(ring.border.size());
+  for (uint32_t column = 0; column < around; ++column)
+    for (uint32_t row = 1; row < ring.rows; ++row) {
+      const Aim aim = aims_[ring.border[column]];
+      const float s = std::min(float(row) / float(skin_rows), 1.0f);
+      const glm::vec3 skin = skin_color(aim + s * (Aim{0.8f * aim.azimuth, -0.475f} - aim));
+      const float red = glm::smoothstep(float(skin_rows) - 2, float(skin_rows) + 1.5f, float(row));
+      glm::vec3 color = glm::mix(skin, lip, red);
+      const float deep = (float(row) - float(skin_rows + lip_rows)) / cavity_rows;
+      color = glm::mix(color, flesh, glm::smoothstep(-0.15f, 0.15f, deep));
+      color = glm::mix(color, throat, glm::smoothstep(0.25f, 0.9f, deep));
+      out[ring_vertex(ring, column, row)] = glm::vec4(color, 1);
+    }
+  for (int y = ring.lo.y + 1; y < ring.hi.y; ++y)
+    for (int x = ring.lo.x + 1; x < ring.hi.x; ++x)
+      out[lattice_.vertex({x, y, lattice_.cells().z})] = glm::vec4(throat, 1);
+}
+
 }  // namespace lodestone::scene::builtin

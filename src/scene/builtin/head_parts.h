@@ -15,7 +15,14 @@ using Posing = std::function<std::vector<glm::vec3>(const Expression&)>;
 // Gives a mesh, whose triangles are there, its positions, normals and blendshapes.
 void sculpt(Mesh& mesh, const Posing& posed);
 
+Mesh head_skin(uint32_t material);
 Mesh head_eyes(uint32_t material);
 Image iris_image();
+Mesh head_ears(uint32_t material);
+Mesh head_brows(uint32_t material);
+Mesh head_teeth(uint32_t material);
+Mesh head_tongue(uint32_t material);
+Mesh head_hair(uint32_t material);
+Mesh head_shirt(uint32_t material);
 
 }  // namespace lodestone::scene::builtin

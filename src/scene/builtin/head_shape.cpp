@@ -15,7 +15,7 @@ float bones(vec3 p) {
   float d = ellipsoid_distance(p, {0, 0.30f, -0.10f}, {0.84f, 0.80f, 0.90f});
   d = smooth_union(d, ellipsoid_distance(p, {0, -0.42f, 0.16f}, {0.60f, 0.52f, 0.60f}), 0.30f);
   d = smooth_union(d, sphere_distance(p, {0.38f, -0.32f, 0.46f}, 0.33f), 0.22f);
-  d = smooth_union(d, sphere_distance(p, {0, -0.83f, 0.54f}, 0.17f), 0.25f);
+  d = smooth_union(d, sphere_distance(p, {0, -0.82f, 0.58f}, 0.17f), 0.24f);
   d = smooth_union(d, ellipsoid_distance(p, {0, -0.50f, 0.58f}, {0.30f, 0.22f, 0.27f}), 0.18f);
   const float neck = capsule_distance(p, {0, -0.55f, -0.10f}, {0, -2.2f, -0.16f}, 0.34f, 0.38f);
   return smooth_union(d, neck, 0.20f);
@@ -23,16 +23,71 @@ float bones(vec3 p) {
 
 // Brow ridge, socket and the lids, closed over the eyeball.
 float eye_region(float d, vec3 p) {
+  if (sphere_distance(p, eye_centre, 0.75f) > 0) return d;  // too far for any of it to matter
   d = smooth_union(d, capsule_distance(p, {0.16f, 0.33f, 0.72f}, {0.52f, 0.36f, 0.52f}, 0.08f, 0.10f), 0.16f);
   d = smooth_difference(d, ellipsoid_distance(p, {0.33f, 0.04f, 0.86f}, {0.27f, 0.22f, 0.20f}), 0.16f);
   return smooth_union(d, sphere_distance(p, eye_centre, lid_radius), 0.05f);
 }
 
-float nose(float d, vec3 p) {
-  d = smooth_union(d, capsule_distance(p, {0, 0.12f, 0.74f}, {0, -0.14f, 0.90f}, 0.06f, 0.075f), 0.12f);
-  d = smooth_union(d, sphere_distance(p, {0, -0.20f, 0.955f}, 0.115f), 0.08f);
-  d = smooth_union(d, sphere_distance(p, {0.105f, -0.235f, 0.875f}, 0.068f), 0.05f);
-  return smooth_difference(d, ellipsoid_distance(p, {0.055f, -0.31f, 0.93f}, {0.035f, 0.03f, 0.045f}), 0.03f);
+float bridge(float d, vec3 p) {
+  if (sphere_distance(p, {0, -0.05f, 0.85f}, 0.45f) > 0) return d;
+  return smooth_union(d, capsule_distance(p, {0, 0.12f, 0.71f}, {0, -0.17f, 0.86f}, 0.05f, 0.065f), 0.14f);
+}
+
+// Blows up the skin around `centre` like a balloon: forwards by `height`, and sideways by the share `spread`
+// of the distance, so that its flanks stand up or overhang. That is what rays from one point cannot see.
+void inflate(vec3& p, glm::vec2 centre, glm::vec2 radius, float height, float spread) {
+  const glm::vec2 offset = glm::vec2(p) - centre;
+  const float b = bump(glm::length(offset / radius));
+  p += vec3(offset * (spread * b), height * b);
+}
+
+// Tip, wings and nostrils of the nose; p.x >= 0.
+vec3 nose_tip(vec3 p) {
+  const vec3 flat = p;
+  inflate(p, {0, -0.195f}, {0.185f, 0.175f}, 0.17f, 0.30f);
+  p.y -= 0.035f * bump(glm::length(glm::vec2(flat.x, flat.y + 0.20f) / glm::vec2(0.17f, 0.14f)));
+  inflate(p, {0.110f, -0.25f}, {0.075f, 0.070f}, 0.035f, 0.25f);
+  p.x +=
+      0.025f * bump(glm::length((glm::vec2(flat) - glm::vec2(0.085f, -0.24f)) / glm::vec2(0.070f, 0.075f)));
+  const float nostril =
+      bump(glm::length((glm::vec2(flat) - glm::vec2(0.048f, -0.285f)) / glm::vec2(0.042f, 0.032f)));
+  return p + vec3(0, 0.035f, -0.03f) * nostril;
+}
+
+vec3 mirrored(vec3 p) {
+  return {std::abs(p.x), p.y, p.z};
+}
+
+// Where a ray from inside leaves the head: marches outwards to a bracket, then closes it by false position,
+// halving the weight of an end that stays (the Illinois rule).
+vec3 leave(vec3 origin, vec3 d) {
+  float inside = 0.3f, at_inside = head_distance(origin + d * inside);
+  float outside = inside, at_outside = at_inside;
+  for (int step = 0; step < 96 && at_outside <= 0; ++step) {
+    inside = outside;
+    at_inside = at_outside;
+    outside += std::max(-at_outside, 0.004f);
+    at_outside = head_distance(origin + d * outside);
+  }
+  int stayed = 0;
+  for (int step = 0; step < 12 && outside - inside > 1e-7f; ++step) {
+    const float middle = (inside * at_outside - outside * at_inside) / (at_outside - at_inside);
+    const float at_middle = head_distance(origin + d * middle);
+    if (std::abs(at_middle) < 1e-7f) return origin + d * middle;
+    if (at_middle > 0) {
+      outside = middle;
+      at_outside = at_middle;
+      if (stayed == -1) at_inside *= 0.5f;
+      stayed = -1;
+    } else {
+      inside = middle;
+      at_inside = at_middle;
+      if (stayed == 1) at_outside *= 0.5f;
+      stayed = 1;
+    }
+  }
+  return origin + d * inside;
 }
 
 }  // namespace
@@ -48,26 +103,14 @@ Aim aim_at(vec3 point) {
 }
 
 float head_distance(vec3 point) {
-  const vec3 p(std::abs(point.x), point.y, point.z);
-  return nose(eye_region(bones(p), p), p);
+  const vec3 p = mirrored(point);
+  return bridge(eye_region(bones(p), p), p);
 }
 
 vec3 head_point(Aim aim) {
-  const vec3 d = direction(aim);
-  // March outwards from the inside, then settle by halving the bracket: no step depends on the exactness of
-  // the distance.
-  float inside = 0.3f, outside = inside;
-  for (int step = 0; step < 64; ++step) {
-    const float distance = head_distance(head_centre + d * outside);
-    if (distance > 0) break;
-    inside = outside;
-    outside += std::max(0.7f * -distance, 0.004f);
-  }
-  for (int step = 0; step < 20; ++step) {
-    const float middle = 0.5f * (inside + outside);
-    (head_distance(head_centre + d * middle) > 0 ? outside : inside) = middle;
-  }
-  return head_centre + d * inside;
+  const vec3 p = leave(head_centre, direction(aim));
+  const vec3 with_nose = nose_tip(mirrored(p));
+  return {std::copysign(with_nose.x, p.x), with_nose.y, with_nose.z};
 }
 
 vec3 head_normal(vec3 point) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "lodestone/scene/builtin/head_parts.h"
+
 namespace lodestone::scene::builtin {
 namespace {
 
@@ -11,14 +13,20 @@ constexpr float pi = 3.14159265f;
 
 // Which sample of the front lies where: azimuth by column, elevation by row; the knots are the borders of the
 // holes.
-constexpr std::array<glm::vec2, 6> column_knots = {
-    {{0, -1.05f}, {9, -0.83f}, {39, -0.06f}, {49, 0.06f}, {79, 0.83f}, {88, 1.05f}}};
+constexpr std::array<glm::vec2, 8> column_knots = {{{0, -1.05f},
+                                                    {9, -0.83f},
+                                                    {28, -0.27f},
+                                                    {43, -0.06f},
+                                                    {53, 0.06f},
+                                                    {68, 0.27f},
+                                                    {87, 0.83f},
+                                                    {96, 1.05f}}};
 constexpr std::array<glm::vec2, 7> row_knots = {
     {{0, -1.36f}, {14, -0.98f}, {22, -0.74f}, {38, -0.27f}, {50, -0.10f}, {74, 0.47f}, {84, 0.85f}}};
-constexpr glm::ivec3 cells(88, 84, 34);
-constexpr glm::ivec2 right_eye_lo(9, 50), right_eye_hi(39, 74);
-constexpr glm::ivec2 left_eye_lo(49, 50), left_eye_hi(79, 74);
-constexpr glm::ivec2 mouth_lo(22, 22), mouth_hi(66, 38);
+constexpr glm::ivec3 cells(96, 84, 34);
+constexpr glm::ivec2 right_eye_lo(9, 50), right_eye_hi(43, 74);
+constexpr glm::ivec2 left_eye_lo(53, 50), left_eye_hi(87, 74);
+constexpr glm::ivec2 mouth_lo(21, 22), mouth_hi(75, 38);
 
 float ramp(std::span<const glm::vec2> knots, float x) {
   size_t k = 1;
@@ -36,6 +44,18 @@ float wall_azimuth(float x, float z) {
 }
 
 }  // namespace
+
+glm::vec3 skin_color(Aim rest) {
+  const Aim aim{std::abs(rest.azimuth), rest.elevation};
+  glm::vec3 color(0.80f, 0.46f, 0.31f);
+  const glm::vec3 flush(0.78f, 0.26f, 0.18f);
+  const float cheek = bump(aim, {0.50f, -0.26f}, {0.34f, 0.28f});
+  const float nose = bump(aim, {0, -0.12f}, {0.17f, 0.20f});
+  const float chin = bump(aim, {0, -0.80f}, {0.25f, 0.20f});
+  color = glm::mix(color, flush, 0.50f * cheek + 0.45f * nose + 0.15f * chin);
+  const float socket = bump(aim, {0.40f, 0.12f}, {0.36f, 0.34f});
+  return glm::mix(color, glm::vec3(0.66f, 0.31f, 0.24f), 0.35f * socket);
+}
 
 HeadSkin::HeadSkin() : lattice_(cells) {
   for (const glm::ivec3& point : lattice_.points()) {
@@ -116,13 +136,6 @@ uint32_t HeadSkin::ring_vertex(const Ring& ring, uint32_t column, uint32_t row) 
   return row == 0 ? ring.border[column] : ring.first_vertex + (row - 1) * around + column;
 }
 
-glm::vec3 HeadSkin::skin_point(Aim rest, const Expression& e, int lip, float lift) const {
-  glm::vec3 p = head_point(rest + skin_slide(rest, e));
-  const float swell = skin_swell(rest, e) + lift;
-  if (swell != 0) p += swell * head_normal(p);
-  return turn_jaw(p, jaw_share(rest, lip), e);
-}
-
 std::vector<glm::vec3> HeadSkin::posed(const Expression& e) const {
   std::vector<glm::vec3> out(vertex_count_);
   for (size_t v = 0; v < points_.size(); ++v) {
@@ -160,6 +173,27 @@ void HeadSkin::pose_cap(const Ring& ring, std::vector<glm::vec3>& out) const {
           glm::mix(glm::mix(corners[0], corners[1], s), glm::mix(corners[3], corners[2], s), t);
       out[lattice_.vertex({ring.lo.x + int(x), ring.lo.y + int(y), cells.z})] = rows + columns - both;
     }
+}
+
+// Colours follow the edge loops, so that lips and lid edges are crisp.
+std::vector<glm::vec4> HeadSkin::colors() const {
+  std::vector<glm::vec4> out(vertex_count_);
+  for (size_t v = 0; v < aims_.size(); ++v) out[v] = glm::vec4(skin_color(aims_[v]), 1);
+  color_eye(eyes_[0], -1, out);
+  color_eye(eyes_[1], 1, out);
+  color_mouth(mouth_, out);
+  return out;
+}
+
+Mesh head_skin(uint32_t material) {
+  const HeadSkin skin;
+  Mesh mesh;
+  mesh.name = "skin";
+  for (const Grid& grid : skin.grids()) add_grid(mesh, grid);
+  add_part(mesh, 0, material);
+  mesh.colors = skin.colors();
+  sculpt(mesh, [&](const Expression& e) { return skin.posed(e); });
+  return mesh;
 }
 
 }  // namespace lodestone::scene::builtin

@@ -11,6 +11,9 @@
 
 namespace lodestone::scene::builtin {
 
+// The colour of the skin that rests at an aim, linear.
+glm::vec3 skin_color(Aim rest);
+
 class HeadSkin {
  public:
   static constexpr uint32_t eye_ring_rows = 26, mouth_ring_rows = 39;
@@ -32,10 +35,11 @@ class HeadSkin {
   void add_front();
   Ring add_ring(glm::ivec2 lo, glm::ivec2 hi, uint32_t rows);
   uint32_t ring_vertex(const Ring& ring, uint32_t column, uint32_t row) const;
-  glm::vec3 skin_point(Aim rest, const Expression& expression, int lip = 0, float lift = 0) const;
   void pose_eye(const Ring& ring, float side, const Expression& expression,
                 std::vector<glm::vec3>& out) const;
   void pose_mouth(const Ring& ring, const Expression& expression, std::vector<glm::vec3>& out) const;
+  void color_eye(const Ring& ring, float side, std::vector<glm::vec4>& out) const;
+  void color_mouth(const Ring& ring, std::vector<glm::vec4>& out) const;
   void pose_cap(const Ring& ring, std::vector<glm::vec3>& out) const;
 
   BoxLattice lattice_;

@@ -136,20 +136,18 @@ std::vector<glm::vec3> snapped_normals(const Mesh& mesh, const std::vector<glm::
 }
 
 void add_target(Mesh& mesh, const std::string& name, const std::vector<glm::vec3>& posed) {
+  if (posed == mesh.positions) return;
   const std::vector<glm::vec3> normals = snapped_normals(mesh, posed);
   MorphTarget target;
   target.name = name;
-  bool moves = false;
   for (uint32_t v = 0; v < posed.size(); ++v) {
     const glm::vec3 move = posed[v] - mesh.positions[v];
     const glm::vec3 turn = normals[v] - mesh.normals[v];
     if (move == glm::vec3(0) && turn == glm::vec3(0)) continue;
-    moves = moves || move != glm::vec3(0);
     target.vertices.push_back(v);
     target.positions.push_back(move);
     target.normals.push_back(turn);
   }
-  if (!moves) return;
   mesh.targets.push_back(std::move(target));
   mesh.weights.push_back(0);
 }
