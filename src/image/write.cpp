@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
@@ -22,23 +23,23 @@ namespace {
 constexpr uint32_t strip_rows = 64;  // a multiple of the 16 rows that a ZIP block of an EXR holds
 
 // Header attributes of EXR that a string of the same name would spoil.
-constexpr std::array<const char*, 17> reserved_names = {"channels",
-                                                        "compression",
-                                                        "dataWindow",
-                                                        "displayWindow",
-                                                        "lineOrder",
-                                                        "name",
-                                                        "type",
-                                                        "version",
-                                                        "chunkCount",
-                                                        "view",
-                                                        "tiles",
-                                                        "preview",
-                                                        "envmap",
-                                                        "multiView",
-                                                        "pixelAspectRatio",
-                                                        "screenWindowCenter",
-                                                        "screenWindowWidth"};
+constexpr std::array<std::string_view, 17> reserved_names = {"channels",
+                                                             "compression",
+                                                             "dataWindow",
+                                                             "displayWindow",
+                                                             "lineOrder",
+                                                             "name",
+                                                             "type",
+                                                             "version",
+                                                             "chunkCount",
+                                                             "view",
+                                                             "tiles",
+                                                             "preview",
+                                                             "envmap",
+                                                             "multiView",
+                                                             "pixelAspectRatio",
+                                                             "screenWindowCenter",
+                                                             "screenWindowWidth"};
 
 void check_channels(const Image& image) {
   if (image.pixels() == 0 || image.channels.empty()) throw std::invalid_argument("an image without samples");
@@ -55,8 +56,8 @@ void set_metadata(OIIO::ImageSpec& spec, const std::filesystem::path& path, cons
   // OpenImageIO stamps an EXR with the time of day unless DateTime is set.
   spec.attribute("DateTime", "");
   for (const auto& [name, text] : image.metadata) {
-    const bool reserved = std::any_of(reserved_names.begin(), reserved_names.end(),
-                                      [&](const char* other) { return name == other; });
+    const bool reserved =
+        std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
     if (reserved || name.empty() || name.size() > 255)
       fail(ExitCode::usage, path.string(), "cannot hold metadata named `{}`; choose another name", name);
     spec.attribute(name, text);
