@@ -4,12 +4,11 @@
 // grid of samples already is a chart as it stands, and any other triangle becomes a small chart of its own.
 #include "lodestone/geometry_image/build.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/charts.h"
 #include "lodestone/geometry_image/notes.h"
 #include "lodestone/geometry_image/slots.h"
@@ -40,28 +39,34 @@ std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly&
   return as_grid;
 }
 
-// Middles of the charts' bounding boxes in the rest pose.
+// Middle of a chart's bounding box.
+glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions,
+                 const layout::ChartRecord& chart) {
+  glm::vec3 lo = positions[assembly.triangles[chart.first_triangle].x], hi = lo;
+  for (uint64_t i = 0; i < triangle_count(chart); ++i) {
+    const glm::uvec4& triangle = assembly.triangles[chart.first_triangle + i];
+    for (glm::length_t corner = 0; corner < 3; ++corner) {
+      lo = glm::min(lo, positions[triangle[corner]]);
+      hi = glm::max(hi, positions[triangle[corner]]);
+    }
+  }
+  // A transform may overflow; where the chart is put then does not matter, but numbers must have an order.
+  glm::vec3 middle = 0.5f * lo + 0.5f * hi;
+  for (glm::length_t axis = 0; axis < 3; ++axis)
+    middle[axis] = std::isfinite(middle[axis]) ? middle[axis] : 0.0f;
+  return middle;
+}
+
+// In the rest pose.
 std::vector<glm::vec3> chart_centers(const scene::Scene& scene, const scene::Assembly& assembly,
                                      const std::vector<layout::ChartRecord>& charts) {
+  constexpr uint64_t grain = 1u << 10;
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   const std::vector<glm::vec3> positions = scene::blended_positions(
       assembly, scene::frame_weights(scene, assembly, rest), scene::frame_matrices(scene, assembly, rest));
   std::vector<glm::vec3> centers(charts.size());
-  tbb::parallel_for(size_t(0), charts.size(), [&](size_t i) {
-    const size_t first = charts[i].first_triangle;
-    glm::vec3 lo = positions[assembly.triangles[first].x], hi = lo;
-    for (size_t t = first; t < first + triangle_count(charts[i]); ++t) {
-      for (glm::length_t corner = 0; corner < 3; ++corner) {
-        const glm::vec3& p = positions[assembly.triangles[t][corner]];
-        lo = glm::min(lo, p);
-        hi = glm::max(hi, p);
-      }
-    }
-    // A transform may overflow; the order then does not matter, but it must be one.
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-      const float middle = 0.5f * lo[axis] + 0.5f * hi[axis];
-      centers[i][axis] = std::isfinite(middle) ? middle : 0.0f;
-    }
+  parallel_for(charts.size(), grain, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) centers[i] = center(assembly, positions, charts[i]);
   });
   return centers;
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/chart_order.h"
 
-#include <tbb/parallel_invoke.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <bit>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "lodestone/base/parallel.h"
 
 namespace lodestone::geometry_image {
 namespace {
@@ -33,7 +32,7 @@ glm::length_t longest_axis(const Box& box) {
 }
 
 void order_by_median(std::span<ChartCenter> run, uint64_t first_place) {
-  constexpr size_t worth_a_task = 1u << 12;
+  constexpr size_t worth_a_task = 1u << 14;
   if (run.size() < 2) return;
   const uint64_t left = aligned_split(first_place, run.size());
   const glm::length_t axis = longest_axis(bounds(run));
@@ -41,13 +40,14 @@ void order_by_median(std::span<ChartCenter> run, uint64_t first_place) {
                    [axis](const ChartCenter& a, const ChartCenter& b) {
                      return std::tie(a.center[axis], a.chart) < std::tie(b.center[axis], b.chart);
                    });
-  const auto lower = [&] { order_by_median(run.first(left), first_place); };
-  const auto upper = [&] { order_by_median(run.subspan(left), first_place + left); };
+  const auto order_side = [&](bool upper) {
+    order_by_median(upper ? run.subspan(left) : run.first(left), upper ? first_place + left : first_place);
+  };
   if (run.size() >= worth_a_task) {
-    tbb::parallel_invoke(lower, upper);
+    parallel_for(2, 1, [&](uint64_t side, uint64_t) { order_side(side == 1); });
   } else {
-    lower();
-    upper();
+    order_side(false);
+    order_side(true);
   }
 }
 
@@ -63,7 +63,7 @@ void order_by_hilbert(std::span<ChartCenter> run) {
     const glm::uvec3 cell = glm::min(glm::uvec3(unit * cells), glm::uvec3((1u << bits) - 1));
     return std::pair(hilbert_index(cell, bits), chart);
   });
-  tbb::parallel_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
+  std::sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
     return std::tie(a.first, a.second.chart) < std::tie(b.first, b.second.chart);
   });
   std::transform(keyed.begin(), keyed.end(), run.begin(), [](const auto& key) { return key.second; });

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/charts.h"
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <bit>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/parallel.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::geometry_image {
 namespace {
 
 constexpr uint64_t texel_limit = uint64_t(1) << 31;
+
+// Small charts are filled many a task, each row of a large one is a task.
+constexpr uint64_t charts_a_task = 1u << 10;
+constexpr uint64_t worth_many_tasks = 1u << 16;  // texels
 
 // An exact chart, row by row: corners v0 v1 v2 and edge midpoints m of the triangle, its centroid c.
 //
@@ -47,14 +51,14 @@ glm::uvec4 grid_entry(const layout::ChartRecord& chart, uint32_t chart_index, ui
 }
 
 std::string label(const scene::Mesh& mesh) {
-  return mesh.name.empty() ? std::string("a mesh") : "mesh '" + mesh.name + "'";
+  return mesh.name.empty() ? std::string("a mesh") : "mesh '" + scene::printable(mesh.name) + "'";
 }
 
 bool matches(const scene::Mesh& mesh, const scene::Grid& grid) {
   std::atomic<bool> good = true;
-  tbb::parallel_for(uint32_t(0), grid.height - 1, [&](uint32_t y) {
-    const uint32_t* row = &grid.vertices[size_t(y) * grid.width];
-    size_t t = grid.first_triangle + size_t(2) * y * (grid.width - 1);
+  parallel_for(grid.height - 1, 1, [&](uint64_t y, uint64_t) {
+    const uint32_t* row = &grid.vertices[y * grid.width];
+    size_t t = grid.first_triangle + 2 * y * (grid.width - 1);
     for (uint32_t x = 0; x + 1 < grid.width; ++x, t += 2) {
       const uint32_t a = row[x], b = row[x + 1], c = row[x + grid.width], d = row[x + grid.width + 1];
       if (mesh.triangles[t] != glm::uvec3(a, b, c) || mesh.triangles[t + 1] != glm::uvec3(d, c, b))
@@ -141,17 +145,21 @@ std::vector<glm::uvec4> make_texel_map(const std::vector<layout::ChartRecord>& c
   uint64_t texels = 0;
   for (const layout::ChartRecord& chart : charts) texels += texel_count(chart);
   std::vector<glm::uvec4> map(texels);
-  tbb::parallel_for(size_t(0), charts.size(), [&](size_t i) {
-    const layout::ChartRecord& chart = charts[i];
-    const auto index = static_cast<uint32_t>(i);
-    const auto fill_row = [&](uint32_t y) {
-      glm::uvec4* row = &map[chart.first_texel + size_t(y) * chart.width];
-      for (uint32_t x = 0; x < chart.width; ++x) row[x] = texel_entry(chart, index, x, y);
-    };
-    if (chart.kind == layout::chart_exact) {
-      for (uint32_t y = 0; y < chart.height; ++y) fill_row(y);
-    } else {
-      tbb::parallel_for(uint32_t(0), chart.height, fill_row);
+  const auto fill_rows = [&](uint64_t index, uint64_t begin, uint64_t end) {
+    const layout::ChartRecord& chart = charts[index];
+    glm::uvec4* texel = &map[chart.first_texel + begin * chart.width];
+    for (auto y = static_cast<uint32_t>(begin); y < end; ++y) {
+      for (uint32_t x = 0; x < chart.width; ++x)
+        *texel++ = texel_entry(chart, static_cast<uint32_t>(index), x, y);
+    }
+  };
+  parallel_for(charts.size(), charts_a_task, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) {
+      if (texel_count(charts[i]) < worth_many_tasks) {
+        fill_rows(i, 0, charts[i].height);
+      } else {
+        parallel_for(charts[i].height, 1, [&](uint64_t first, uint64_t last) { fill_rows(i, first, last); });
+      }
     }
   });
   return map;

@@ -6,13 +6,13 @@
 // within a bucket, so the result depends neither on the number of threads nor on the hash.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <random>
 #include <vector>
+
+#include "lodestone/base/parallel.h"
 
 namespace lodestone::geometry_image {
 
@@ -49,19 +49,19 @@ inline Buckets deal_out(const std::vector<uint32_t>& hashes, uint32_t bucket_bit
   const auto count = static_cast<uint32_t>(hashes.size());
   const uint32_t blocks = count / block + 1;
   const size_t buckets = size_t(1) << bucket_bits;
-  const auto for_each_block = [&](const auto& body) {
-    tbb::parallel_for(uint32_t(0), blocks, [&](uint32_t b) {
-      const auto end = static_cast<uint32_t>(std::min(uint64_t(count), (uint64_t(b) + 1) * block));
-      for (uint32_t item = b * block; item < end; ++item) {
-        body(item, b * buckets + (hashes[item] >> (32 - bucket_bits)));
+  std::vector<uint32_t> places(blocks * buckets, 0);
+  const auto for_each_item = [&](const auto& body) {
+    parallel_for(count, block, [&](uint64_t begin, uint64_t end) {
+      uint32_t* const places_of_block = &places[begin / block * buckets];
+      for (auto item = static_cast<uint32_t>(begin); item < end; ++item) {
+        body(item, places_of_block[hashes[item] >> (32 - bucket_bits)]);
       }
     });
   };
 
   // Count the items of each block and bucket, turn the counts into places, then put every item into its
   // place.
-  std::vector<uint32_t> places(blocks * buckets, 0);
-  for_each_block([&](uint32_t, size_t cell) { ++places[cell]; });
+  for_each_item([](uint32_t, uint32_t& place) { ++place; });
   Buckets dealt;
   dealt.first.resize(buckets + 1, count);
   uint32_t next = 0;
@@ -74,7 +74,7 @@ inline Buckets deal_out(const std::vector<uint32_t>& hashes, uint32_t bucket_bit
     }
   }
   dealt.items.resize(count);
-  for_each_block([&](uint32_t item, size_t cell) { dealt.items[places[cell]++] = item; });
+  for_each_item([&](uint32_t item, uint32_t& place) { dealt.items[place++] = item; });
   return dealt;
 }
 
@@ -88,10 +88,12 @@ std::vector<uint32_t> first_equal(uint32_t count, const Hash& hash, const Equal&
   constexpr uint32_t items_per_bucket = 1u << 14;
   const auto bucket_bits = std::clamp<uint32_t>(uint32_t(std::bit_width(count / items_per_bucket)), 1, 10);
   std::vector<uint32_t> hashes(count);
-  tbb::parallel_for(uint32_t(0), count, [&](uint32_t item) { hashes[item] = hash(item); });
+  parallel_for(count, items_per_bucket, [&](uint64_t begin, uint64_t end) {
+    for (auto item = static_cast<uint32_t>(begin); item < end; ++item) hashes[item] = hash(item);
+  });
   const detail::Buckets dealt = detail::deal_out(hashes, bucket_bits);
   std::vector<uint32_t> first(count);
-  tbb::parallel_for(size_t(0), dealt.first.size() - 1, [&](size_t bucket) {
+  parallel_for(dealt.first.size() - 1, 1, [&](uint64_t bucket, uint64_t) {
     const uint32_t begin = dealt.first[bucket], end = dealt.first[bucket + 1];
     // Open addressing, at most half full. An entry is a hash and an item; no item has the number that `free`
     // would be.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "lodestone/scene/text_reader.h"
+
 namespace lodestone::geometry_image {
 namespace {
 
@@ -18,7 +20,7 @@ std::string place(const scene::Scene& scene, const scene::Assembly& assembly, ui
   const scene::AssemblyPart& part = assembly.parts[assembly.triangles[triangle].w];
   const std::string& name = scene.meshes[part.mesh].name;
   return fmt::format("triangle {} of mesh {}{}", part.first_mesh_triangle + (triangle - part.first_triangle),
-                     part.mesh, name.empty() ? "" : " '" + name + "'");
+                     part.mesh, name.empty() ? "" : " '" + scene::printable(name) + "'");
 }
 
 }  // namespace

@@ -2,11 +2,10 @@
 // Lists that many threads write and that come out in order all the same.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
 #include <cstdint>
 #include <vector>
+
+#include "lodestone/base/parallel.h"
 
 namespace lodestone::geometry_image {
 
@@ -15,11 +14,9 @@ namespace lodestone::geometry_image {
 template <class Value, class Emit>
 std::vector<Value> parallel_collect(uint64_t count, const Emit& emit) {
   constexpr uint64_t block = 1u << 16;
-  const uint64_t blocks = (count + block - 1) / block;
-  std::vector<std::vector<Value>> lists(blocks);
-  tbb::parallel_for(uint64_t(0), blocks, [&](uint64_t b) {
-    const uint64_t end = std::min(count, (b + 1) * block);
-    for (uint64_t i = b * block; i < end; ++i) emit(i, lists[b]);
+  std::vector<std::vector<Value>> lists((count + block - 1) / block);
+  parallel_for(count, block, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) emit(i, lists[begin / block]);
   });
   size_t total = 0;
   for (const std::vector<Value>& list : lists) total += list.size();

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/slots.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <bit>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/quad_order.h"
 
 namespace lodestone::geometry_image {
@@ -60,20 +59,22 @@ glm::uvec2 leaf_entry(const layout::ChartRecord& chart, uint32_t slot) {
 }
 
 std::vector<glm::uvec2> make_leaf_map(const std::vector<layout::ChartRecord>& charts, uint64_t slots) {
-  constexpr uint32_t grain = 1u << 14;
+  constexpr uint64_t charts_a_task = 1u << 10, slots_a_task = 1u << 14;
   std::vector<glm::uvec2> map(slots);
-  tbb::parallel_for(size_t(0), charts.size(), [&](size_t i) {
-    const layout::ChartRecord& chart = charts[i];
-    const auto fill = [&](const tbb::blocked_range<uint32_t>& range) {
-      for (uint32_t slot = range.begin(); slot != range.end(); ++slot) {
-        map[size_t(chart.first_slot) + slot] = leaf_entry(chart, slot);
+  const auto fill = [&](const layout::ChartRecord& chart, uint64_t begin, uint64_t end) {
+    for (auto slot = static_cast<uint32_t>(begin); slot < end; ++slot) {
+      map[size_t(chart.first_slot) + slot] = leaf_entry(chart, slot);
+    }
+  };
+  parallel_for(charts.size(), charts_a_task, [&](uint64_t first, uint64_t last) {
+    for (uint64_t i = first; i < last; ++i) {
+      const layout::ChartRecord& chart = charts[i];
+      if (chart.slot_count <= slots_a_task) {
+        fill(chart, 0, chart.slot_count);
+      } else {
+        parallel_for(chart.slot_count, slots_a_task,
+                     [&](uint64_t begin, uint64_t end) { fill(chart, begin, end); });
       }
-    };
-    const tbb::blocked_range<uint32_t> all(0, chart.slot_count, grain);
-    if (all.is_divisible()) {
-      tbb::parallel_for(all, fill);
-    } else {
-      fill(all);
     }
   });
   return map;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/triangle_survey.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <utility>
 
+#include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/collinear.h"
 #include "lodestone/geometry_image/edge_use.h"
 #include "lodestone/geometry_image/first_equal.h"
@@ -18,6 +17,8 @@ namespace lodestone::geometry_image {
 namespace {
 
 using Corners = std::array<uint32_t, 3>;
+
+constexpr uint64_t grain = 1u << 12;  // triangles a task
 
 // Which of a placement's samples the vertices of grids are, as far as edges are concerned.
 enum SampleUse : uint8_t { used = 1, used_often = 2, on_border = 4 };
@@ -31,9 +32,12 @@ class Surveyor {
   TriangleSurvey run() {
     survey_.fates.resize(assembly_.triangles.size());
     for (size_t p = 0; p < as_grid_.size(); ++p) {
-      const auto [begin, end] = triangles_of(p);
-      tbb::parallel_for(tbb::blocked_range<uint32_t>(begin, end, 1u << 12), [&](const auto& range) {
-        for (uint32_t t = range.begin(); t != range.end(); ++t) fate(t) = judge_alone(t, as_grid_[p]);
+      const TriangleRange range = triangles_of(p);
+      parallel_for(range.count, grain, [&](uint64_t begin, uint64_t end) {
+        for (uint64_t i = begin; i < end; ++i) {
+          const auto t = static_cast<uint32_t>(range.first + i);
+          fate(t) = judge_alone(t, as_grid_[p]);
+        }
       });
     }
     drop_duplicates();
@@ -44,10 +48,12 @@ class Surveyor {
  private:
   TriangleFate& fate(uint32_t triangle) { return survey_.fates[triangle]; }
 
-  std::pair<uint32_t, uint32_t> triangles_of(size_t placement) const {
-    const bool last = placement + 1 == assembly_.placements.size();
-    const size_t end = last ? assembly_.triangles.size() : assembly_.placements[placement + 1].first_triangle;
-    return {assembly_.placements[placement].first_triangle, static_cast<uint32_t>(end)};
+  struct TriangleRange {
+    uint32_t first, count;
+  };
+  TriangleRange triangles_of(size_t placement) const {
+    const scene::Placement& placed = assembly_.placements[placement];
+    return {placed.first_triangle, static_cast<uint32_t>(scene_.meshes[placed.mesh].triangles.size())};
   }
 
   Corners corners(uint32_t triangle) const {
@@ -71,10 +77,9 @@ class Surveyor {
   void drop_duplicates() {
     for (size_t p = 0; p < as_grid_.size(); ++p) {
       if (as_grid_[p]) continue;
-      const auto [begin, end] = triangles_of(p);
-      const uint32_t first = begin;
-      const auto more = parallel_collect<uint32_t>(end - begin, [&](uint64_t i, auto& list) {
-        const auto t = static_cast<uint32_t>(first + i);
+      const TriangleRange range = triangles_of(p);
+      const auto more = parallel_collect<uint32_t>(range.count, [&](uint64_t i, auto& list) {
+        const auto t = static_cast<uint32_t>(range.first + i);
         if (survey_.fates[t] != TriangleFate::dropped_collapsed) list.push_back(t);
       });
       single_.insert(single_.end(), more.begin(), more.end());
@@ -142,10 +147,9 @@ class Surveyor {
     };
     for (size_t p = 0; p < as_grid_.size(); ++p) {
       if (!as_grid_[p]) continue;
-      const auto [begin, end] = triangles_of(p);
-      const uint32_t first = begin;
-      const auto more = parallel_collect<uint32_t>(end - begin, [&](uint64_t i, auto& edges) {
-        const auto t = static_cast<uint32_t>(first + i);
+      const TriangleRange range = triangles_of(p);
+      const auto more = parallel_collect<uint32_t>(range.count, [&](uint64_t i, auto& edges) {
+        const auto t = static_cast<uint32_t>(range.first + i);
         if (survey_.fates[t] == TriangleFate::dropped_collapsed) return;
         for (uint32_t k = 0; k < 3; ++k) {
           if (!is_certain(half_edge(assembly_, welded_, 3 * t + k))) edges.push_back(3 * t + k);
@@ -163,10 +167,10 @@ class Surveyor {
       if (!as_grid_[p]) continue;
       const scene::Placement& placement = assembly_.placements[p];
       for (const scene::Grid& grid : scene_.meshes[placement.mesh].grids) {
-        tbb::parallel_for(uint32_t(0), grid.height, [&](uint32_t y) {
-          for (uint32_t x = 0; x < grid.width; ++x) {
-            const uint32_t vertex = placement.first_vertex + grid.vertices[size_t(y) * grid.width + x];
-            std::atomic_ref<uint8_t> use(uses[welded_[vertex]]);
+        parallel_for(grid.vertices.size(), grain, [&](uint64_t begin, uint64_t end) {
+          for (uint64_t i = begin; i < end; ++i) {
+            const uint64_t x = i % grid.width, y = i / grid.width;
+            std::atomic_ref<uint8_t> use(uses[welded_[placement.first_vertex + grid.vertices[i]]]);
             if ((use.fetch_or(used, std::memory_order_relaxed) & used) != 0) {
               use.fetch_or(used_often, std::memory_order_relaxed);
             }

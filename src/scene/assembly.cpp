@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/assembly.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/parallel.h"
 #include "lodestone/layout/arithmetic.h"
 
 namespace lodestone::scene {
@@ -66,14 +65,13 @@ Totals count(const Scene& scene) {
   return totals;
 }
 
-// Vertices a task: enough work to pay for it.
-constexpr uint32_t grain = 1u << 14;
+// Vertices or triangles a task: enough work to pay for it.
+constexpr uint64_t grain = 1u << 14;
 
 template <class Body>
 void for_each_vertex(const Mesh& mesh, const Body& body) {
-  const auto vertices = static_cast<uint32_t>(mesh.positions.size());
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, vertices, grain), [&](const auto& range) {
-    for (uint32_t v = range.begin(); v != range.end(); ++v) body(v);
+  parallel_for(mesh.positions.size(), grain, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t v = begin; v < end; ++v) body(static_cast<uint32_t>(v));
   });
 }
 
@@ -105,8 +103,8 @@ void copy_triangles(const Mesh& mesh, const Placement& placement, Assembly& asse
     const auto index = static_cast<uint32_t>(assembly.parts.size());
     const uint32_t first = placement.first_triangle + part.first_triangle;
     assembly.parts.push_back({part.material, placement.mesh, first, part.first_triangle});
-    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, part.triangle_count, grain), [&](const auto& range) {
-      for (uint32_t t = range.begin(); t != range.end(); ++t) {
+    parallel_for(part.triangle_count, grain, [&](uint64_t begin, uint64_t end) {
+      for (uint64_t t = begin; t < end; ++t) {
         const glm::uvec3& corners = mesh.triangles[part.first_triangle + t];
         assembly.triangles[first + t] = glm::uvec4(corners + placement.first_vertex, index);
       }

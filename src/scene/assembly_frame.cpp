@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What changes by the frame, and the reference of the pass `blend`.
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
+#include "lodestone/base/parallel.h"
 #include "lodestone/layout/arithmetic.h"
 #include "lodestone/scene/assembly.h"
 
@@ -79,10 +79,10 @@ std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::ve
                                          const std::vector<glm::vec4>& matrices) {
   check_size(weights.size(), assembly.weight_count, "the morph weights");
   check_size(matrices.size(), 3 * size_t(assembly.matrix_count), "the matrices");
-  const auto vertices = static_cast<uint32_t>(assembly.positions.size());
-  std::vector<glm::vec3> blended(vertices);
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, vertices, 1u << 13), [&](const auto& range) {
-    for (uint32_t v = range.begin(); v != range.end(); ++v) {
+  constexpr uint64_t grain = 1u << 13;
+  std::vector<glm::vec3> blended(assembly.positions.size());
+  parallel_for(blended.size(), grain, [&](uint64_t begin, uint64_t end) {
+    for (auto v = static_cast<uint32_t>(begin); v < end; ++v) {
       const glm::vec3 p = morphed(assembly, weights, v);
       const Rows m = blended_matrix(assembly, matrices, v);
       blended[v] = layout::flush_tiny3({transformed(m.r0, p), transformed(m.r1, p), transformed(m.r2, p)});
