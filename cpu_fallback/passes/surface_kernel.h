@@ -53,7 +53,7 @@ class SurfaceKernel : public Kernel<Probe> {
   static TexelPair texel_pair(float x, uint size, uint wrap, uint nearest) {
     return layout::texel_pair(x, size, wrap, nearest);
   }
-#include "geometry_image/surface.h"
+#include "lodestone/layout/surface.h"
 #undef LOAD4
 #undef LOAD1
 };

@@ -21,4 +21,4 @@ STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
 
-#include "geometry_image/surface.h"
+#include "layout/surface.h"

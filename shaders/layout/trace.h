@@ -160,6 +160,7 @@ struct TracePush {
   uint resume;  // 0: all rays from the root; 1: those unfinished, from their states
   uint budget;  // steps of a ray in this dispatch. Mesa before 23 stops a subgroup silently after 65,535 loop
                 // iterations: with 8 lanes and two nested loops a budget of 4,000 can never reach that.
+  uint slots;   // leaf slots in use
 };
 
 LODESTONE_LAYOUT_END

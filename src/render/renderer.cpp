@@ -214,7 +214,8 @@ void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit
                                          geometry.id(),    links.id(),       rays.hits.id(),
                                          rays.states.id(), rays.steps.id(), pending.id()};
   const uint32_t zero = 0;
-  layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget};
+  layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget,
+                         levels.slots()};
   do {
     backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
     run(pass, buffers, push, count, {any_hit ? 1u : 0u, steps ? 1u : 0u});

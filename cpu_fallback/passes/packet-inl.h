@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Sixteen rays of one octant together through the tree, in the order of that octant; a node is read once for all of them.
+// Lane by lane the arithmetic is that of layout/trace.h. Included once a SIMD target.
+
+#if defined(LODESTONE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LODESTONE_PACKET_INL_H_
+#undef LODESTONE_PACKET_INL_H_
+#else
+#define LODESTONE_PACKET_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/passes/trace_block.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<float, packet_rays>;
+using Floats = hn::Vec<Lanes>;
+using Mask = hn::Mask<Lanes>;
+using Ids = hn::Vec<hn::RebindToUnsigned<Lanes>>;
+
+struct Vec3 {
+  Floats x, y, z;
+};
+
+HWY_ATTR inline Vec3 sub(const Vec3& a, const Vec3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_ATTR inline Vec3 add(const Vec3& a, const Vec3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_ATTR inline Floats dot(const Vec3& a, const Vec3& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_ATTR inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_ATTR inline Floats edge_function(const Vec3& p, const Vec3& q, const Vec3& direction) {
+  return dot(direction, cross(sub(q, p), add(p, q)));
+}
+
+// The packet's rays and best hits, structure of arrays.
+struct Packet {
+  alignas(64) float origin[3][packet_rays], direction[3][packet_rays], inverse[3][packet_rays];
+  alignas(64) float near_origin[3][packet_rays], far_origin[3][packet_rays];
+  alignas(64) float tmin[packet_rays], t[packet_rays], u[packet_rays], v[packet_rays];
+  alignas(64) uint32_t primitive[packet_rays];
+};
+
+HWY_ATTR inline Vec3 load3(const float (&a)[3][packet_rays], uint32_t lane) {
+  const Lanes d;
+  return {hn::Load(d, a[0] + lane), hn::Load(d, a[1] + lane), hn::Load(d, a[2] + lane)};
+}
+
+// Both triangles of a quad for the lanes from `lane` on that entered its bound.
+struct QuadTest {
+  const Lanes d;
+  const hn::RebindToUnsigned<Lanes> du;
+  Vec3 direction;
+  Floats tmin, enter, best_t, best_u, best_v;
+  Ids best_primitive;
+
+  HWY_ATTR void accept(const Vec3& p0, const Vec3& p1, const Vec3& p2, Floats w0, Floats w1, Floats w2, Mask entered,
+                       uint32_t primitive) {
+    const auto zero = hn::Zero(d);
+    const Mask positive = hn::And(hn::And(hn::Ge(w0, zero), hn::Ge(w1, zero)), hn::Ge(w2, zero));
+    const Mask negative = hn::And(hn::And(hn::Le(w0, zero), hn::Le(w1, zero)), hn::Le(w2, zero));
+    Mask hit = hn::And(hn::Or(positive, negative), entered);
+    if (hn::AllFalse(d, hit)) return;
+    const Vec3 normal = cross(sub(p1, p0), sub(p2, p0));
+    const Floats facing = dot(normal, direction);
+    const Floats sum = hn::Add(hn::Add(w0, w1), w2);
+    Floats t = hn::Div(dot(normal, p0), facing);
+    hit = hn::And(hit, hn::And(hn::Ne(facing, zero), hn::Ne(sum, zero)));
+    hit = hn::And(hit, hn::Gt(t, tmin));
+    t = hn::IfThenElse(hn::Lt(t, enter), enter, t);
+    const Ids ids = hn::Set(du, primitive);
+    const Mask lower = hn::RebindMask(d, hn::Lt(ids, best_primitive));
+    hit = hn::And(hit, hn::Or(hn::Lt(t, best_t), hn::And(hn::Eq(t, best_t), lower)));
+    best_t = hn::IfThenElse(hit, t, best_t);
+    best_u = hn::IfThenElse(hit, hn::Div(w1, sum), best_u);
+    best_v = hn::IfThenElse(hit, hn::Div(w2, sum), best_v);
+    best_primitive = hn::IfThenElse(hn::RebindMask(du, hit), ids, best_primitive);
+  }
+};
+
+HWY_ATTR inline Vec3 relative(const glm::vec3& p, const Vec3& origin) {
+  const Lanes d;
+  return sub({hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)}, origin);
+}
+
+HWY_ATTR inline void test_quad(TraceBlock& block, Packet& packet, uint32_t address, uint32_t lane, Mask entered,
+                               Floats enter) {
+  const Lanes d;
+  const hn::RebindToUnsigned<Lanes> du;
+  const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
+  const Vec3 origin = load3(packet.origin, lane), direction = load3(packet.direction, lane);
+  const Vec3 pa = relative(block.texel(texel), origin), pb = relative(block.texel(texel + 1), origin);
+  const Vec3 pc = relative(block.texel(texel + stride), origin), pd = relative(block.texel(texel + stride + 1), origin);
+  const Floats bc = edge_function(pb, pc, direction), ab = edge_function(pa, pb, direction),
+               ca = edge_function(pc, pa, direction), dc = edge_function(pd, pc, direction),
+               bd = edge_function(pb, pd, direction);
+  QuadTest test{d, du, direction, hn::Load(d, packet.tmin + lane), enter, hn::Load(d, packet.t + lane),
+                hn::Load(d, packet.u + lane), hn::Load(d, packet.v + lane), hn::Load(du, packet.primitive + lane)};
+  test.accept(pa, pb, pc, bc, ca, ab, entered, 2 * texel);
+  test.accept(pd, pc, pb, hn::Neg(bc), bd, dc, entered, 2 * texel + 1);
+  hn::Store(test.best_t, d, packet.t + lane);
+  hn::Store(test.best_u, d, packet.u + lane);
+  hn::Store(test.best_v, d, packet.v + lane);
+  hn::Store(test.best_primitive, du, packet.primitive + lane);
+  block.count_quad(static_cast<uint32_t>(hn::CountTrue(d, entered)));
+}
+
+HWY_ATTR inline void load_packet(const TraceBlock& block, uint32_t first, uint32_t count, Packet& packet) {
+  for (uint32_t lane = 0; lane < packet_rays; ++lane) {
+    layout::Ray ray = block.ray(first + std::min(lane, count - 1));
+    if (lane >= count) ray.tmax = -1;
+    const layout::Slabs slabs = layout::make_slabs(ray, block.extent());
+    for (int axis = 0; axis < 3; ++axis) {
+      packet.origin[axis][lane] = ray.origin[axis];
+      packet.direction[axis][lane] = ray.direction[axis];
+      packet.inverse[axis][lane] = slabs.inverse[axis];
+      packet.near_origin[axis][lane] = slabs.near_origin[axis];
+      packet.far_origin[axis][lane] = slabs.far_origin[axis];
+    }
+    packet.tmin[lane] = ray.tmin;
+    packet.t[lane] = ray.tmax;
+    packet.u[lane] = packet.v[lane] = 0;
+    packet.primitive[lane] = layout::no_index;
+  }
+}
+
+HWY_ATTR inline void trace_packet(TraceBlock& block, uint32_t first, uint32_t count) {
+  const Lanes d;
+  const uint32_t width = static_cast<uint32_t>(hn::Lanes(d));
+  Packet packet;
+  load_packet(block, first, count, packet);
+  const uint32_t octant = layout::make_slabs(block.ray(first), block.extent()).octant;
+  const bool x = (octant & 1) != 0, y = (octant & 2) != 0, z = (octant & 4) != 0;
+  layout::Walk walk{0, 0, 0};
+  uint32_t visits = 0;
+  while (walk.depth != layout::walk_done) {
+    const uint32_t address = layout::walk_address(walk);
+    const float* lo = block.nodes_lo(address);
+    const float* hi = block.nodes_hi(address);
+    const Vec3 near_plane{hn::Set(d, x ? hi[0] : lo[0]), hn::Set(d, y ? hi[1] : lo[1]), hn::Set(d, z ? hi[2] : lo[2])};
+    const Vec3 far_plane{hn::Set(d, x ? lo[0] : hi[0]), hn::Set(d, y ? lo[1] : hi[1]), hn::Set(d, z ? lo[2] : hi[2])};
+    const bool leaf = walk.depth == block.depth();
+    bool inside = false;
+    uint32_t active = 0;
+    for (uint32_t lane = 0; lane < packet_rays; lane += width) {
+      const Vec3 inverse = load3(packet.inverse, lane);
+      const Vec3 from3 = sub(near_plane, load3(packet.near_origin, lane));
+      const Vec3 to3 = sub(far_plane, load3(packet.far_origin, lane));
+      const Floats enter = hn::Max(hn::Max(hn::Mul(from3.x, inverse.x), hn::Mul(from3.y, inverse.y)),
+                                   hn::Max(hn::Mul(from3.z, inverse.z), hn::Load(d, packet.tmin + lane)));
+      const Floats exit = hn::Min(hn::Min(hn::Mul(to3.x, inverse.x), hn::Mul(to3.y, inverse.y)),
+                                  hn::Min(hn::Mul(to3.z, inverse.z), hn::Load(d, packet.t + lane)));
+      const Mask entered = hn::Le(enter, exit);
+      if (hn::AllFalse(d, entered)) continue;
+      inside = true;
+      active += static_cast<uint32_t>(hn::CountTrue(d, entered));
+      if (leaf) {
+        test_quad(block, packet, address, lane, entered, enter);
+      } else if (lane + width < packet_rays) {
+        break;  // one ray that enters takes all of them along
+      }
+    }
+    block.count_step(packet_rays, active, packet_rays);
+    ++visits;
+    walk = inside && !leaf ? layout::walk_down(walk, (block.order(address) >> (2 * octant)) & 3u) : layout::walk_on(walk);
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    block.finish(first + i, block.ray(first + i),
+                 {packet.t[i], packet.u[i], packet.v[i], packet.primitive[i]}, visits);
+  }
+}
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// One ray against the 16 grandchildren of a node at once: they stand side by side in memory.
+// Included once a SIMD target.
+
+#if defined(LODESTONE_SINGLE_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LODESTONE_SINGLE_RAY_INL_H_
+#undef LODESTONE_SINGLE_RAY_INL_H_
+#else
+#define LODESTONE_SINGLE_RAY_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/passes/trace_block.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Boxes = hn::CappedTag<float, 16>;
+
+// A ray's slabs with the near and the far plane chosen once.
+struct RaySlabs {
+  layout::Slabs s;
+  float tmin;
+};
+
+// Tests `count` (at most 16) nodes from `address` on; returns the bits of those entered before `tmax` and their distances.
+HWY_ATTR inline uint32_t test_boxes(const TraceBlock& block, const RaySlabs& ray, uint32_t address, uint32_t count,
+                                    float tmax, float* HWY_RESTRICT enter) {
+  const Boxes d;
+  const layout::Slabs& s = ray.s;
+  const auto tmin = hn::Set(d, ray.tmin), limit = hn::Set(d, tmax);
+  const auto near_x = hn::Set(d, s.near_origin.x), near_y = hn::Set(d, s.near_origin.y),
+             near_z = hn::Set(d, s.near_origin.z);
+  const auto far_x = hn::Set(d, s.far_origin.x), far_y = hn::Set(d, s.far_origin.y), far_z = hn::Set(d, s.far_origin.z);
+  const auto inv_x = hn::Set(d, s.inverse.x), inv_y = hn::Set(d, s.inverse.y), inv_z = hn::Set(d, s.inverse.z);
+  const size_t lanes = hn::Lanes(d);
+  uint32_t hits = 0;
+  for (uint32_t first = 0; first < count; first += lanes) {
+    hn::Vec<Boxes> lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, unused;
+    hn::LoadInterleaved4(d, block.nodes_lo(address + first), lo_x, lo_y, lo_z, unused);
+    hn::LoadInterleaved4(d, block.nodes_hi(address + first), hi_x, hi_y, hi_z, unused);
+    const bool x = (s.octant & 1) != 0, y = (s.octant & 2) != 0, z = (s.octant & 4) != 0;
+    const auto enter_x = hn::Mul(hn::Sub(x ? hi_x : lo_x, near_x), inv_x);
+    const auto enter_y = hn::Mul(hn::Sub(y ? hi_y : lo_y, near_y), inv_y);
+    const auto enter_z = hn::Mul(hn::Sub(z ? hi_z : lo_z, near_z), inv_z);
+    const auto exit_x = hn::Mul(hn::Sub(x ? lo_x : hi_x, far_x), inv_x);
+    const auto exit_y = hn::Mul(hn::Sub(y ? lo_y : hi_y, far_y), inv_y);
+    const auto exit_z = hn::Mul(hn::Sub(z ? lo_z : hi_z, far_z), inv_z);
+    const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, tmin));
+    const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, limit));
+    hn::StoreU(from, d, enter + first);
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Le(from, to), bits);
+    hits |= (uint32_t(bits[0]) | uint32_t(bits[1]) << 8) << first;
+  }
+  return hits & ((1u << count) - 1);
+}
+
+struct StackEntry {
+  float enter;
+  uint32_t index;
+  uint32_t level;
+};
+
+// Puts the entered nodes on the stack, the nearest last.
+HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t hits, const float* enter, uint32_t index,
+                                     uint32_t level) {
+  const uint32_t bottom = size;
+  for (; hits != 0; hits &= hits - 1) {
+    const auto child = static_cast<uint32_t>(std::countr_zero(hits));
+    const StackEntry entry{enter[child], index + child, level};
+    uint32_t place = size++;
+    for (; place > bottom && stack[place - 1].enter < entry.enter; --place) stack[place] = stack[place - 1];
+    stack[place] = entry;
+  }
+  return size;
+}
+
+HWY_ATTR inline void test_quad(TraceBlock& block, const layout::Ray& ray, uint32_t address, float enter,
+                               layout::Hit& best) {
+  const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
+  layout::intersect_quad(block.texel(texel), block.texel(texel + 1), block.texel(texel + stride),
+                         block.texel(texel + stride + 1), ray, enter, texel, best);
+  block.count_quad(1);
+}
+
+HWY_ATTR inline void trace_single(TraceBlock& block, uint32_t index) {
+  if (!block.wanted(index)) return;
+  const layout::Ray ray = block.ray(index);
+  layout::Hit best{ray.tmax, 0, 0, layout::no_index};
+  uint32_t visits = 0;
+  if (!(ray.tmax < 0.0f)) {
+    const RaySlabs slabs{layout::make_slabs(ray, block.extent()), ray.tmin};
+    const uint32_t depth = block.depth();
+    // Two levels a step, so that the last step ends on the leaves: from the root's children where the depth is odd.
+    StackEntry stack[16 * (layout::max_depth / 2 + 1)];
+    uint32_t size = 0;
+    alignas(64) float enter[16];
+    uint32_t level = depth % 2 == 0 ? 2 : 1, first = 0;
+    for (;;) {
+      const uint32_t fan = level == 1 ? 4 : 16;
+      const uint32_t count = std::min(fan, block.places(level) - first);
+      uint32_t hits = test_boxes(block, slabs, layout::level_base(level) + first, count, best.t, enter);
+      block.count_step(count, 1, 1);
+      ++visits;
+      if (level == depth) {
+        while (hits != 0) {
+          // Nearest first: often the others then lie behind the hit.
+          uint32_t nearest = static_cast<uint32_t>(std::countr_zero(hits));
+          for (uint32_t rest = hits & (hits - 1); rest != 0; rest &= rest - 1) {
+            const auto other = static_cast<uint32_t>(std::countr_zero(rest));
+            if (enter[other] < enter[nearest]) nearest = other;
+          }
+          hits &= ~(1u << nearest);
+          if (enter[nearest] > best.t) break;
+          test_quad(block, ray, layout::level_base(level) + first + nearest, enter[nearest], best);
+        }
+        if (block.any_hit() && best.primitive != layout::no_index) break;
+      } else {
+        size = push_sorted(stack, size, hits, enter, first, level);
+      }
+      while (size != 0 && stack[size - 1].enter > best.t) --size;
+      if (size == 0) break;
+      const StackEntry next = stack[--size];
+      level = next.level + 2;
+      first = 16 * next.index;
+    }
+  }
+  block.finish(index, ray, best, visits);
+}
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

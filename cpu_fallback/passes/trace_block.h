@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// A run of rays of one dispatch as the wide traversal sees it: buffers, levels, counters.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "lodestone/cpu_fallback/passes/trace_kernel.h"
+
+namespace lodestone::cpu_fallback {
+
+inline constexpr uint32_t packet_rays = 16;
+
+class TraceBlock : public TraceKernel<CountingProbe> {
+ public:
+  explicit TraceBlock(const CpuDispatch& dispatch) : TraceKernel<CountingProbe>(dispatch), extent_(scene_extent()) {
+    for (uint32_t level = 0; level <= depth(); ++level) {
+      const uint32_t shift = 2 * (depth() - level);
+      const uint64_t used = (uint64_t(push_.slots) + (uint64_t(1) << shift) - 1) >> shift;
+      places_[level] = static_cast<uint32_t>(std::min<uint64_t>(uint64_t(1) << (2 * level), (used + 3) / 4 * 4));
+    }
+  }
+
+  const render::Counters& counts() const { return probe.counts; }
+  uint32_t depth() const { return push_.depth; }
+  uint32_t places(uint32_t level) const { return places_[level]; }
+  float extent() const { return extent_; }
+  bool any_hit() const { return TraceKernel<CountingProbe>::any_hit(); }
+
+  // Do these rays go together? All of one octant, from nearby origins, in a narrow cone.
+  bool coherent(uint32_t first, uint32_t count) {
+    if (count < 4 || push_.resume != 0) return false;
+    const layout::Ray lead = ray(first);
+    const uint32_t octant = octant_of(lead);
+    glm::vec3 lo = lead.origin, hi = lead.origin;
+    for (uint32_t i = first; i < first + count; ++i) {
+      const layout::Ray other = ray(i);
+      if (octant_of(other) != octant || layout::dot3(lead.direction, other.direction) < 0.98f) return false;
+      lo = layout::min3(lo, other.origin);
+      hi = layout::max3(hi, other.origin);
+    }
+    return layout::max_component(hi - lo) < extent_ * (1.0f / 64);
+  }
+
+  // Counted together with its hit, so that the loops above stay free of it.
+  layout::Ray ray(uint32_t index) const {
+    const glm::uvec4 from = rays_.load4(2 * uint64_t(index)), along = rays_.load4(2 * uint64_t(index) + 1);
+    return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
+  }
+
+  // Whether ray `index` is to be traced in this dispatch, always from the root: nothing is left unfinished here.
+  bool wanted(uint32_t index) {
+    if (push_.resume == 0) return true;
+    return states_.load4(index).w != layout::trace_finished;
+  }
+
+  void finish(uint32_t index, const layout::Ray& ray, layout::Hit hit, uint32_t visits) {
+    if (any_hit() && hit.primitive != layout::no_index) hit = {0, 0, 0, 0};
+    hits_.store4(index, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
+    states_.store4(index, {0, 0, 0, layout::trace_finished});
+    if (constant(1) != 0) steps_.store1(index, visits);
+    probe.read(8);
+    probe.write(8);
+    if (push_.resume == 0 && !(ray.tmax < 0.0f)) probe.ray();
+  }
+
+  // `boxes` bounds of `lanes` rays out of `width` were read and tested in one step.
+  void count_step(uint32_t boxes, uint32_t lanes, uint32_t width) {
+    render::Counters& c = probe.counts;
+    c.node_visits += lanes;
+    c.box_tests += boxes;
+    c.bytes_read += 32 * (width == 1 ? boxes : 1);
+    c.lane_steps += lanes;
+    c.subgroup_steps += width;
+  }
+
+  void count_quad(uint32_t rays) {
+    probe.triangles(2 * rays);
+    probe.read(16);
+  }
+
+  // 8 floats a node in two arrays: lo x y z, order or leaf; hi x y z, stride.
+  const float* nodes_lo(uint32_t address) const {
+    return reinterpret_cast<const float*>(nodes_lo_.words) + 4 * uint64_t(address);
+  }
+  const float* nodes_hi(uint32_t address) const {
+    return reinterpret_cast<const float*>(nodes_hi_.words) + 4 * uint64_t(address);
+  }
+  glm::vec3 texel(uint32_t index) const { return as_vec3(geometry_.load4(index)); }
+  uint32_t leaf_texel(uint32_t address) const {
+    return nodes_lo_.words[4 * uint64_t(address) + 3] & ~layout::leaf_flag;
+  }
+  uint32_t leaf_stride(uint32_t address) const { return nodes_hi_.words[4 * uint64_t(address) + 3]; }
+  uint32_t order(uint32_t address) const { return nodes_lo_.words[4 * uint64_t(address) + 3]; }
+
+ private:
+  static uint32_t octant_of(const layout::Ray& ray) {
+    return (ray.direction.x < 0 ? 1 : 0) | (ray.direction.y < 0 ? 2 : 0) | (ray.direction.z < 0 ? 4 : 0);
+  }
+
+  float extent_;
+  uint32_t places_[layout::max_depth + 1] = {};
+};
+
+}  // namespace lodestone::cpu_fallback

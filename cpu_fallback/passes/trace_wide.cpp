@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/cpu_fallback/passes/trace_wide.h"
+
+#include <bit>
+
+#include "lodestone/cpu_fallback/cpu_backend.h"
+#include "lodestone/cpu_fallback/passes/trace_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/trace_wide.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/passes/packet-inl.h"
+#include "lodestone/cpu_fallback/passes/single_ray-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
+
+// Rays [begin, end) of the dispatch; `begin` is a multiple of 16.
+void trace_block(TraceBlock& block, uint32_t begin, uint32_t end) {
+  for (uint32_t first = begin; first < end; first += packet_rays) {
+    const uint32_t count = std::min(packet_rays, end - first);
+    if (block.coherent(first, count)) {
+      trace_packet(block, first, count);
+    } else {
+      for (uint32_t i = first; i < first + count; ++i) trace_single(block, i);
+    }
+  }
+}
+
+const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(trace_block);
+HWY_EXPORT(target_name);
+
+std::string simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
+
+void trace_wide(const CpuDispatch& dispatch) {
+  const auto trace = HWY_DYNAMIC_DISPATCH(trace_block);
+  std::mutex mutex;
+  parallel_for(dispatch.invocations, 1024, [&](uint64_t begin, uint64_t end) {
+    TraceBlock block(dispatch);
+    trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
+    if (dispatch.counting) {
+      const std::lock_guard lock(mutex);
+      add_counters(*dispatch.counters, block.counts());
+    }
+  });
+}
+
+}  // namespace lodestone::cpu_fallback
+#endif
