@@ -45,9 +45,9 @@ bool is_ascii(const std::string& file, std::string_view bytes) {
   }
   TextReader reader(file, bytes);
   if (!equal_ignoring_case(reader.word_across_lines(), "solid")) return false;
-  if (!reader.next_line()) return true;
-  const std::string_view second = reader.word_across_lines();
-  return second.empty() || equal_ignoring_case(second, "facet") || equal_ignoring_case(second, "endsolid");
+  const std::string_view second = reader.next_line() ? reader.word_across_lines() : "";
+  if (second.empty()) return bytes.find('\0') == std::string_view::npos;  // cut off early
+  return equal_ignoring_case(second, "facet") || equal_ignoring_case(second, "endsolid");
 }
 
 std::vector<glm::vec3> read_binary(const std::string& file, std::string_view bytes) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What every loader has to do with any bytes whatever: give a valid scene, or throw Error(bad_input).
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "lodestone/base/error.h"
+#include "lodestone/base/log.h"
+#include "lodestone/scene/load.h"
+
+namespace lodestone::fuzz {
+
+// The loader of a format: a folder of the corpus.
+inline scene::Scene load_as(const std::string& format, const std::filesystem::path& path) {
+  if (format == "gltf" || format == "glb") return scene::load_gltf(path);
+  if (format == "obj") return scene::load_obj(path);
+  if (format == "ply") return scene::load_ply(path);
+  if (format == "stl") return scene::load_stl(path);
+  if (format == "height_map") return scene::load_height_map(path, {});
+  throw std::logic_error("no loader for the format " + format);
+}
+
+// The name under which the bytes are loaded. Loaders choose by content what they can, so one name a format
+// will do. An OBJ file that names fuzz.obj as its material library is read as one too.
+inline std::string file_name(const std::string& format) {
+  return format == "height_map" ? "fuzz.png" : "fuzz." + format;
+}
+
+// True where the bytes are a valid scene, false where the loader says what is wrong with them. Anything else
+// is a fault: another exit code, an exception that is no Error, a scene that `validate` refuses.
+inline bool load_bytes(const std::string& format, std::span<const std::byte> bytes,
+                       const std::filesystem::path& folder) {
+  log::set_level(log::Level::quiet);
+  const std::filesystem::path path = folder / file_name(format);
+  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) throw std::runtime_error("cannot write " + path.string());
+  scene::Scene loaded;
+  try {
+    loaded = load_as(format, path);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::bad_input) throw std::logic_error(error.what());
+    return false;
+  }
+  try {
+    scene::validate(loaded);
+  } catch (const Error& error) {
+    throw std::logic_error(std::string("the loader returned an invalid scene: ") + error.what());
+  }
+  return true;
+}
+
+// A folder for the bytes, removed at the end of the process. TMPDIR says where; a RAM disk is fastest.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lodestone-fuzz-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace lodestone::fuzz
