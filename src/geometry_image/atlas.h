@@ -20,20 +20,21 @@ enum class AtlasKind : uint32_t { automatic, grid, exact };
 
 // What was found in the input and what was done about it; printed by `info` and `-v`.
 struct AtlasReport {
-  uint64_t triangles = 0, quads = 0, texels = 0, slots = 0;
-  uint64_t degenerate_triangles =
-      0;  // zero area in the rest pose: kept where a pose can open them, else dropped
-  uint64_t duplicate_triangles =
-      0;  // the same three welded vertices in the same cyclic order: the first is kept
+  uint64_t triangles = 0;  // of the assembly, dropped ones included
+  uint64_t quads = 0, texels = 0, slots = 0;
+  // Of zero area in the rest pose: dropped, but for those that a pose can open and those that seal a gap.
+  uint64_t degenerate_triangles = 0;
+  // Of the same three welded vertices in the same cyclic order: the first is kept.
+  uint64_t duplicate_triangles = 0;
   uint64_t non_manifold_edges = 0;  // more than two triangles: kept
   uint64_t boundary_edges = 0;      // one triangle
-  uint64_t welded_vertices = 0;
-  std::vector<std::string> notes;  // one sentence each
+  uint64_t welded_vertices = 0;     // joined to a lower one that is the same point in every pose
+  std::vector<std::string> notes;   // one sentence each
   bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
 };
 
 struct Atlas {
-  AtlasKind kind = AtlasKind::exact;
+  AtlasKind kind = AtlasKind::exact;        // what the charts are; automatic: some of each kind
   uint32_t depth = 0;                       // the leaves' level: 4^depth >= slot count
   std::vector<layout::ChartRecord> charts;  // in the order of mesh and triangle; texels ascend with them
   std::vector<glm::uvec4> texel_map;        // see layout/atlas.h
@@ -48,15 +49,15 @@ Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, At
 // Baked files (.lode): header (magic, version, content hash, sizes), then the arrays zstd-compressed, then a
 // checksum.
 void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const std::string& content_hash);
-// Throws Error(bad_input) unless the file is whole, of this version, consistent in every index.
+// Throws Error(bad_input) unless the file is whole, of this version, consistent in every index. Whether it is
+// the atlas of a given scene is for the caller to see: by the hash, and by report.triangles.
 Atlas load_atlas(const std::filesystem::path& path, std::string* content_hash = nullptr);
 
 // The key of the cache: everything that the atlas is computed from.
 std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
 
 // From the cache folder ($LODESTONE_CACHE, else $XDG_CACHE_HOME/lodestone, else ~/.cache/lodestone) or built
-// and put there; a damaged or unwritable cache costs a note, never the run. An empty `cached` path is not
-// filled in.
+// and put there; a damaged or unwritable cache costs a note, never the run. `hit`: whether it was there.
 Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind,
                    bool* hit = nullptr);
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// A .lode file of this tracer, all numbers little-endian:
+//
+//   magic "lodestn" and a control character that text editors do not keep, version, kind of content
+//   content hash (text), kind, depth, number of charts, texels and slots, the report
+//   charts, texel map, leaf map: see packed_rows.h
+//   checksum: 32 hexadecimal digits over everything before
+#include "lodestone/geometry_image/atlas_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "lodestone/base/error.h"
+#include "lodestone/base/file.h"
+#include "lodestone/base/hash.h"
+#include "lodestone/geometry_image/atlas_check.h"
+#include "lodestone/geometry_image/byte_stream.h"
+#include "lodestone/geometry_image/packed_rows.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
+constexpr uint32_t version = 1;
+constexpr uint32_t content_atlas = 1;
+constexpr size_t checksum_digits = 32;
+
+// Nothing that build_atlas makes is larger.
+constexpr uint64_t max_slots = uint64_t(1) << (2 * layout::max_depth);
+constexpr uint64_t max_charts = max_slots;
+constexpr uint64_t max_texels = (uint64_t(1) << 31) - 1;
+constexpr uint64_t max_triangles = uint64_t(1) << 28;
+constexpr uint32_t longest_text = 4096;
+constexpr uint32_t most_notes = 64;
+
+// The numbers of a report, in the order of the file.
+constexpr uint64_t AtlasReport::*report_numbers[] = {&AtlasReport::triangles,
+                                                     &AtlasReport::quads,
+                                                     &AtlasReport::texels,
+                                                     &AtlasReport::slots,
+                                                     &AtlasReport::degenerate_triangles,
+                                                     &AtlasReport::duplicate_triangles,
+                                                     &AtlasReport::non_manifold_edges,
+                                                     &AtlasReport::boundary_edges,
+                                                     &AtlasReport::welded_vertices};
+
+std::string checksum(std::span<const std::byte> bytes) {
+  ContentHash hash;
+  hash.add(bytes);
+  return hash.hex();
+}
+
+AtlasReport read_report(ByteReader& reader) {
+  AtlasReport report;
+  for (uint64_t AtlasReport::*field : report_numbers) report.*field = reader.number<uint64_t>();
+  if (report.triangles > max_triangles) reader.fail("it claims too many triangles");
+  const auto notes = reader.number<uint32_t>();
+  if (notes > most_notes) reader.fail("it claims too many notes");
+  for (uint32_t i = 0; i < notes; ++i) {
+    report.notes.push_back(reader.text(longest_text));
+    // Notes are printed: nothing in them may steer a terminal.
+    const std::string& note = report.notes.back();
+    if (std::any_of(note.begin(), note.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) {
+      reader.fail("a note is no text");
+    }
+  }
+  return report;
+}
+
+uint64_t read_count(ByteReader& reader, uint64_t most) {
+  const auto count = reader.number<uint64_t>();
+  if (count > most) reader.fail("an array claims too many elements");
+  return count;
+}
+
+// Takes the checksum off, having compared it, and the start of the header.
+std::span<const std::byte> trusted_part(const std::string& file, std::span<const std::byte> bytes) {
+  ByteReader head(file, bytes);
+  if (bytes.size() < magic.size() ||
+      std::memcmp(head.bytes(magic.size()).data(), magic.data(), magic.size()) != 0) {
+    fail_input(file, "is not a baked file; make one with `lodestone bake SCENE -o FILE`");
+  }
+  const auto found_version = head.number<uint32_t>();
+  if (found_version != version) {
+    fail_input(file, "is a baked file of version {}, and this program reads version {}; bake it again",
+               found_version, version);
+  }
+  if (bytes.size() < magic.size() + 2 * sizeof(uint32_t) + checksum_digits) head.fail("it is cut short");
+  const std::span<const std::byte> content = bytes.first(bytes.size() - checksum_digits);
+  if (std::memcmp(checksum(content).data(), &bytes[content.size()], checksum_digits) != 0) {
+    head.fail("its checksum is wrong");
+  }
+  if (head.number<uint32_t>() != content_atlas) {
+    fail_input(file, "holds no geometry images; bake the scene for this tracer");
+  }
+  return content.subspan(magic.size() + 2 * sizeof(uint32_t));
+}
+
+}  // namespace
+
+std::vector<std::byte> pack_atlas(const Atlas& atlas, const std::string& content_hash) {
+  ByteWriter writer;
+  writer.bytes(std::as_bytes(std::span(magic)));
+  writer.number(version);
+  writer.number(content_atlas);
+  writer.text(content_hash);
+  writer.number(static_cast<uint32_t>(atlas.kind));
+  writer.number(atlas.depth);
+  writer.number(static_cast<uint64_t>(atlas.charts.size()));
+  writer.number(static_cast<uint64_t>(atlas.texel_map.size()));
+  writer.number(static_cast<uint64_t>(atlas.leaf_map.size()));
+  for (uint64_t AtlasReport::*field : report_numbers) writer.number(atlas.report.*field);
+  writer.number(static_cast<uint32_t>(atlas.report.notes.size()));
+  for (const std::string& note : atlas.report.notes) writer.text(note);
+  pack_rows(atlas.charts, writer);
+  pack_rows(atlas.texel_map, writer);
+  pack_rows(atlas.leaf_map, writer);
+  const std::string sum = checksum(writer.written());
+  writer.bytes(std::as_bytes(std::span(sum)));
+  return writer.take();
+}
+
+Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, std::string* content_hash) {
+  ByteReader reader(file, trusted_part(file, bytes));
+  const std::string hash = reader.text(longest_text);
+  Atlas atlas;
+  atlas.kind = static_cast<AtlasKind>(reader.number<uint32_t>());
+  atlas.depth = reader.number<uint32_t>();
+  const uint64_t charts = read_count(reader, max_charts);
+  const uint64_t texels = read_count(reader, max_texels);
+  const uint64_t slots = read_count(reader, max_slots);
+  atlas.report = read_report(reader);
+  atlas.charts = unpack_rows<layout::ChartRecord>(reader, charts);
+  atlas.texel_map = unpack_rows<glm::uvec4>(reader, texels);
+  atlas.leaf_map = unpack_rows<glm::uvec2>(reader, slots);
+  if (!reader.at_end()) reader.fail("it goes on behind its end");
+  const std::string fault = find_fault(atlas);
+  if (!fault.empty()) reader.fail(("it has " + fault).c_str());
+  if (content_hash != nullptr) *content_hash = hash;
+  return atlas;
+}
+
+void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const std::string& content_hash) {
+  write_file(path, pack_atlas(atlas, content_hash));
+}
+
+Atlas load_atlas(const std::filesystem::path& path, std::string* content_hash) {
+  return unpack_atlas(path.string(), read_file(path), content_hash);
+}
+
+}  // namespace lodestone::geometry_image

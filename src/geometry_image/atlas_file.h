@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Baked atlases as bytes; atlas.h has the functions that read and write files.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lodestone/geometry_image/atlas.h"
+
+namespace lodestone::geometry_image {
+
+std::vector<std::byte> pack_atlas(const Atlas& atlas, const std::string& content_hash);
+
+// Any bytes whatever give an atlas that keeps every promise, or Error(bad_input) that names `file`.
+Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, std::string* content_hash);
+
+}  // namespace lodestone::geometry_image

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base/hash.h"
+#include "lodestone/geometry_image/atlas.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+// To be raised whenever build_atlas makes something else of the same input.
+constexpr uint32_t build_version = 1;
+
+}  // namespace
+
+std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind) {
+  ContentHash hash;
+  hash.add(std::string("geometry-image atlas"));
+  hash.add_value(build_version);
+  hash.add_value(kind);
+  // Triangles, and what decides which vertices are one point.
+  hash.add_array(assembly.placements);
+  hash.add_array(assembly.parts);
+  hash.add_array(assembly.triangles);
+  hash.add_array(assembly.positions);
+  hash.add_array(assembly.first_morph);
+  hash.add_array(assembly.morphs);
+  hash.add_array(assembly.first_influence);
+  hash.add_array(assembly.influences);
+  // The rest pose, which decides the order of charts.
+  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+  hash.add_array(scene::frame_weights(scene, assembly, rest));
+  hash.add_array(scene::frame_matrices(scene, assembly, rest));
+  // Grids, and the names that notes mention.
+  for (const scene::Placement& placement : assembly.placements) {
+    const scene::Mesh& mesh = scene.meshes[placement.mesh];
+    hash.add(mesh.name);
+    hash.add_value(uint64_t(mesh.grids.size()));
+    for (const scene::Grid& grid : mesh.grids) {
+      hash.add_value(grid.width);
+      hash.add_value(grid.height);
+      hash.add_value(grid.first_triangle);
+      hash.add_array(grid.vertices);
+    }
+  }
+  return hash.hex();
+}
+
+}  // namespace lodestone::geometry_image
