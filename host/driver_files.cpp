@@ -79,7 +79,8 @@ std::string describe_driver_files() {
   std::vector<std::string> found;
   for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
     const char* value = std::getenv(name);
-    if (value == nullptr || *value == 0) continue;
+    if (value == nullptr) continue;
+    if (*value == 0) return fmt::format("{} is set and names no driver file", name);
     for (const fs::path& path : split_paths(value)) {
       if (fs::is_directory(path)) {
         for (const fs::path& file : json_files(path)) found.push_back(describe(file));

@@ -45,9 +45,9 @@ PassProfiler::PassProfiler(const Device& device, MemoryAllocator& memory, uint32
     : device_(device),
       counting_(counting),
       stride_(slot_stride(device)),
-      // Kernels that do not count share one slot that nobody reads.
-      counters_(device, memory, stride_ * (counting ? slots : 1), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                MemoryUse::readback, "counters"),
+      // A slot a pass even where nothing is counted: passes that share one would seem to race for it.
+      counters_(device, memory, stride_ * slots, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::readback,
+                "counters"),
       slots_(slots) {
   std::memset(counters_.mapped(), 0, counters_.bytes());
   if (!device.has_timestamps()) return;
@@ -77,7 +77,7 @@ void PassProfiler::stamp(VkCommandBuffer commands, uint32_t query) const {
 }
 
 VkDescriptorBufferInfo PassProfiler::counters_of(uint32_t slot) const {
-  return {counters_.handle(), counting_ ? slot * stride_ : 0, counter_bytes};
+  return {counters_.handle(), slot * stride_, counter_bytes};
 }
 
 void PassProfiler::collect(std::span<render::PassRecord> records, HostClock::time_point origin,
