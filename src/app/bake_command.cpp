@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/app/bake_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "lodestone/app/common_options.h"
+#include "lodestone/app/output_path.h"
+#include "lodestone/app/thread_limit.h"
+#include "lodestone/base/error.h"
+#include "lodestone/base/log.h"
+#include "lodestone/geometry_image/atlas.h"
+#include "lodestone/scene/assembly.h"
+#include "lodestone/scene/load.h"
+
+namespace lodestone::app {
+namespace {
+
+struct BakeOptions {
+  SceneOptions scene;
+  std::string output;
+  uint32_t threads = 0;
+};
+
+int run_bake(const BakeOptions& options) {
+  const std::filesystem::path output = options.output;
+  if (output.extension() != ".lode")
+    fail(ExitCode::usage, "-o", "`{}` does not end in .lode, as baked files do", options.output);
+  check_writable(output);
+  const ThreadLimit threads(options.threads);
+  const scene::Scene scene = scene::load(options.scene.scene, {options.scene.height_scale});
+  const scene::Assembly assembly = scene::assemble(scene);
+  const geometry_image::Atlas atlas = geometry_image::build_atlas(scene, assembly, options.scene.atlas);
+  geometry_image::save_atlas(output, atlas, geometry_image::atlas_hash(scene, assembly, options.scene.atlas));
+  for (const std::string& note : atlas.report.notes) log::note(options.scene.scene + ": " + note);
+  log::note(fmt::format("{}: {} charts, {} quads, {} texels", options.output, atlas.charts.size(),
+                        atlas.report.quads, atlas.report.texels));
+  return int(ExitCode::done);
+}
+
+}  // namespace
+
+void add_bake_command(CLI::App& app, std::function<int()>& run) {
+  CLI::App* command = app.add_subcommand("bake", "Do the precomputation alone and keep it in a .lode file");
+  auto options = std::make_shared<BakeOptions>();
+  add_scene_argument(*command, options->scene);
+  command->add_option("-o,--output", options->output, "The baked file")->required()->type_name("FILE.lode");
+  add_tracer_option(*command);
+  add_atlas_options(*command, options->scene);
+  add_threads_option(*command, options->threads);
+  add_log_options(*command);
+  command->footer("Example: lodestone bake stanford_dragon.ply -o dragon.lode");
+  command->callback([options, &run] { run = [options] { return run_bake(*options); }; });
+}
+
+}  // namespace lodestone::app

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <new>
+
+#include "lodestone/app/bake_command.h"
+#include "lodestone/app/bench_command.h"
+#include "lodestone/app/check_command.h"
+#include "lodestone/app/compare_command.h"
+#include "lodestone/app/devices_command.h"
+#include "lodestone/app/info_command.h"
+#include "lodestone/app/open_device.h"
+#include "lodestone/app/parity_command.h"
+#include "lodestone/app/parse_values.h"
+#include "lodestone/app/render_command.h"
+#include "lodestone/app/version.h"
+#include "lodestone/base/error.h"
+#include "lodestone/base/log.h"
+
+namespace lodestone::app {
+namespace {
+
+class LogLevelGuard {
+ public:
+  LogLevelGuard() : before_(log::level()) {}
+  ~LogLevelGuard() { log::set_level(before_); }
+  LogLevelGuard(const LogLevelGuard&) = delete;
+  LogLevelGuard& operator=(const LogLevelGuard&) = delete;
+
+ private:
+  log::Level before_;
+};
+
+int report(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "lodestone: error: {}\n", message);
+  return int(code);
+}
+
+void add_commands(CLI::App& app, std::function<int()>& run) {
+  add_render_command(app, run);
+  add_compare_command(app, run);
+  add_check_command(app, run, run_command_line);
+  add_parity_command(app, run);
+  add_bake_command(app, run);
+  add_info_command(app, run);
+  add_bench_command(app, run);
+  add_devices_command(app, run);
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+// "; see `lodestone render --help`", of the command that was being parsed.
+std::string help_hint(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return fmt::format("; see `lodestone {}--help`", parsed.empty() ? "" : parsed.back()->get_name() + " ");
+}
+
+// What is to be run; nothing where the parser has already answered (`--help`, `--version`).
+std::function<int()> parse(CLI::App& app, const std::vector<std::string>& arguments,
+                           std::function<int()>& run) {
+  // CLI11 would call an unknown command an unexpected argument.
+  if (!arguments.empty() && !arguments[0].starts_with('-'))
+    parse_choice("command", arguments[0], command_names(app));
+  try {
+    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants it
+    app.parse(std::move(reversed));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return [] { return int(ExitCode::done); };
+    }
+    throw Error(ExitCode::usage, error.what() + help_hint(app));
+  }
+  if (!run) throw Error(ExitCode::usage, "a command is missing" + help_hint(app));
+  return run;
+}
+
+}  // namespace
+
+int run_command_line(const std::vector<std::string>& arguments) {
+  const LogLevelGuard guard;
+  try {
+    CLI::App app("Ray tracing of deforming and massive models in portable compute shaders", "lodestone");
+    app.set_version_flag("--version", fmt::format("lodestone {} ({})", version(), commit()));
+    app.require_subcommand(0, 1);
+    app.get_formatter()->column_width(28);
+    app.footer("Example: lodestone render builtin:head -o head.png");
+    std::function<int()> run;
+    add_commands(app, run);
+    const int code = parse(app, arguments, run)();
+    fail_on_late_messages();
+    return code;
+  } catch (const Error& error) {
+    return report(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return report(ExitCode::machine, "memory: there is not enough of it; choose a smaller scene or picture");
+  } catch (const std::exception& error) {
+    return report(ExitCode::machine, fmt::format("internal: {}; please report this", error.what()));
+  }
+}
+
+}  // namespace lodestone::app

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/app/common_options.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+
+#include "lodestone/base/error.h"
+#include "lodestone/base/log.h"
+
+namespace lodestone::app {
+namespace {
+
+constexpr uint32_t max_spp = 65536;
+constexpr uint32_t max_threads = 4096;
+constexpr double float_limit = std::numeric_limits<float>::max();
+
+}  // namespace
+
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& type,
+                       const std::string& help, std::function<void(const std::string&)> parse) {
+  return app.add_option_function<std::string>(names, parse, help)->type_name(type);
+}
+
+void add_scene_argument(CLI::App& app, SceneOptions& options) {
+  app.add_option("SCENE", options.scene,
+                 "A .gltf .glb .obj .ply .stl, a grey .png .exr .tif as a height map, or builtin:NAME")
+      ->required()
+      ->type_name("");
+  add_value(app, "--height", "SCALE",
+            "Height of a height map's brightest sample, in widths of a sample (default: a quarter of its "
+            "larger side)",
+            [&](const std::string& text) {
+              options.height_scale = float(parse_number("--height", text, 1e-6, 1e9));
+            });
+}
+
+void add_atlas_options(CLI::App& app, SceneOptions& options) {
+  add_value(
+      app, "--atlas", "NAME",
+      "Charts of the geometry image: grid (meshes made of grids), exact (any triangles) or auto (default)",
+      [&](const std::string& text) {
+        parse_choice("--atlas", text, {"auto", "grid", "exact"});
+        options.atlas = text == "grid"    ? geometry_image::AtlasKind::grid
+                        : text == "exact" ? geometry_image::AtlasKind::exact
+                                          : geometry_image::AtlasKind::automatic;
+      });
+  add_value(
+      app, "--resolution", "N", "Texels of a resampled geometry image; `grid` and `exact` take none",
+      [](const std::string& text) {
+        parse_count("--resolution", text, 2, max_side);
+        fail(ExitCode::usage, "--resolution",
+             "the atlases grid and exact take their texels from the triangles and have no resolution; leave "
+             "it out");
+      });
+}
+
+std::vector<std::string> tracer_names() {
+  return {"geometry-image"};
+}
+
+void add_tracer_option(CLI::App& app) {
+  add_value(app, "--tracer", "NAME", fmt::format("Tracer: {} (default)", join_names(tracer_names())),
+            [](const std::string& text) { parse_choice("--tracer", text, tracer_names()); });
+}
+
+void add_pose_options(CLI::App& app, PoseOptions& options) {
+  add_value(app, "--clip", "NAME", "Animation clip, by name or number (default: the first)",
+            [&](const std::string& text) { options.clip = text; });
+  add_value(app, "--weights", "NAME=X,...",
+            "Morph weights that override the animation, by target name or number",
+            [&](const std::string& text) { options.weights = parse_weights("--weights", text); });
+}
+
+void add_frame_options(CLI::App& app, FrameOptions& options) {
+  add_value(app, "--frames", "A-B", "Frames to render, both included (default: 0)",
+            [&](const std::string& text) { options.frames = parse_frames("--frames", text); });
+  add_value(app, "--fps", "N", "Frames a second: frame F shows the time F / N; a clip loops (default: 24)",
+            [&](const std::string& text) { options.fps = parse_number("--fps", text, 1e-3, 1e6); });
+  add_value(app, "--time", "S", "Time of the one frame in seconds instead; past the end of the clip it loops",
+            [&](const std::string& text) { options.time = parse_number("--time", text, 0, 1e9); });
+}
+
+void check_frames(const FrameOptions& options) {
+  if (options.time && options.range().count() > 1)
+    fail(ExitCode::usage, "--time",
+         "gives one moment, but --frames gives {} of them; leave one of the two out",
+         options.range().count());
+}
+
+render::Traversal parse_traversal(const std::string& option, const std::string& text) {
+  using render::Traversal;
+  parse_choice(option, text, {"auto", "threaded", "octant", "wide"});
+  return text == "threaded" ? Traversal::threaded
+         : text == "octant" ? Traversal::octant
+         : text == "wide"   ? Traversal::wide
+                            : Traversal::automatic;
+}
+
+void add_size_option(CLI::App& app, Size& size) {
+  add_value(app, "--size", "WxH", fmt::format("Pixels (default: {}x{})", size.width, size.height),
+            [&](const std::string& text) { size = parse_size("--size", text); });
+}
+
+void add_seed_option(CLI::App& app, uint32_t& seed) {
+  add_value(app, "--seed", "N", "Seed of the random numbers (default: 0)", [&](const std::string& text) {
+    seed = uint32_t(parse_count("--seed", text, 0, std::numeric_limits<uint32_t>::max()));
+  });
+}
+
+void add_camera_option(CLI::App& app, std::string& camera) {
+  add_value(
+      app, "--camera", "NAME",
+      "Camera of the scene, by name or number, or auto: one that sees the whole animation (default: the "
+      "first, else auto)",
+      [&](const std::string& text) { camera = text; });
+}
+
+void add_picture_options(CLI::App& app, PictureOptions& options) {
+  add_size_option(app, options.size);
+  add_value(app, "--spp", "N", "Samples a pixel (default: 1)",
+            [&](const std::string& text) { options.spp = uint32_t(parse_count("--spp", text, 1, max_spp)); });
+  add_seed_option(app, options.seed);
+  add_camera_option(app, options.camera);
+  add_value(app, "--traversal", "NAME",
+            "threaded, octant, wide (CPU only), or auto: the fastest of the device (default). All give the "
+            "same hits",
+            [&](const std::string& text) { options.traversal = parse_traversal("--traversal", text); });
+}
+
+std::vector<std::string> aov_names() {
+  return {"depth", "normal", "albedo", "uv", "id", "lod", "steps"};
+}
+
+void add_threads_option(CLI::App& app, uint32_t& threads) {
+  add_value(app, "--threads", "N", "CPU threads (default: all)", [&](const std::string& text) {
+    threads = uint32_t(parse_count("--threads", text, 1, max_threads));
+  });
+}
+
+void add_device_options(CLI::App& app, DeviceOptions& options) {
+  add_value(
+      app, "--device", "DEVICE",
+      "cpu; gpu: the first Vulkan device; its INDEX or part of its NAME as `lodestone devices` lists them; "
+      "auto: a GPU, else any Vulkan device, else the CPU (default)",
+      [&](const std::string& text) {
+        if (text.empty()) fail(ExitCode::usage, "--device", "is empty; run `lodestone devices` for a list");
+        options.device = text;
+      });
+  add_threads_option(app, options.backend.threads);
+  app.add_flag("--validate", options.backend.validate,
+               "Run the Vulkan validation layers; any message is an error");
+}
+
+void add_log_options(CLI::App& app) {
+  auto* verbose = app.add_flag_callback(
+      "-v,--verbose", [] { log::set_level(log::Level::verbose); }, "Say more, on standard error");
+  auto* quiet = app.add_flag_callback(
+      "-q,--quiet", [] { log::set_level(log::Level::quiet); }, "Say nothing but errors");
+  verbose->excludes(quiet);
+}
+
+}  // namespace lodestone::app

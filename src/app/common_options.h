@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Options that several commands take, each declared once. Values are checked while they are parsed: what
+// stands in these structs is valid. The functions add options to a command's parser; the structs must outlive
+// it.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lodestone/app/parse_values.h"
+#include "lodestone/geometry_image/atlas.h"
+#include "lodestone/render/backend.h"
+#include "lodestone/render/renderer.h"
+
+namespace lodestone::app {
+
+// An option of one value, which `parse` checks and stores.
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& type,
+                       const std::string& help, std::function<void(const std::string&)> parse);
+
+struct SceneOptions {
+  std::string scene;
+  geometry_image::AtlasKind atlas = geometry_image::AtlasKind::automatic;
+  float height_scale = 0;
+};
+void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height
+void add_atlas_options(CLI::App& app, SceneOptions& options);   // --atlas --resolution
+
+// The tracers of this build: the names that --tracer takes.
+std::vector<std::string> tracer_names();
+void add_tracer_option(CLI::App& app);
+
+struct PoseOptions {
+  std::string clip;  // empty: the first
+  std::map<std::string, float> weights;
+};
+void add_pose_options(CLI::App& app, PoseOptions& options);  // --clip --weights
+
+struct FrameOptions {
+  std::optional<FrameRange> frames;
+  double fps = 24;
+  std::optional<double> time;
+
+  FrameRange range() const { return frames.value_or(FrameRange{}); }
+  // Seconds of a frame, before they wrap at the end of the clip.
+  double seconds(uint32_t frame) const { return time.value_or(frame / fps); }
+};
+void add_frame_options(CLI::App& app, FrameOptions& options);  // --frames --fps --time
+// Throws Error(usage) where --time is given and several frames are.
+void check_frames(const FrameOptions& options);
+
+struct PictureOptions {
+  Size size;
+  uint32_t spp = 1;
+  uint32_t seed = 0;
+  std::string camera;  // empty: the first, or auto
+  render::Traversal traversal = render::Traversal::automatic;
+};
+void add_size_option(CLI::App& app, Size& size);
+void add_seed_option(CLI::App& app, uint32_t& seed);
+void add_camera_option(CLI::App& app, std::string& camera);
+void add_picture_options(CLI::App& app, PictureOptions& options);  // those three, --spp and --traversal
+render::Traversal parse_traversal(const std::string& option, const std::string& text);
+
+std::vector<std::string> aov_names();
+
+struct DeviceOptions {
+  std::string device = "auto";
+  render::BackendOptions backend;
+};
+void add_device_options(CLI::App& app, DeviceOptions& options);  // --device --threads --validate
+void add_threads_option(CLI::App& app, uint32_t& threads);       // 0: all
+
+void add_log_options(CLI::App& app);  // -v -q, which take effect while they are parsed
+
+}  // namespace lodestone::app

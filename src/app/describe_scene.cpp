@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "lodestone/app/describe.h"
+#include "lodestone/geometry_image/atlas.h"
+#include "lodestone/scene/assembly.h"
+#include "lodestone/scene/load.h"
+#include "lodestone/scene/pose.h"
+
+namespace lodestone::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* to_string(geometry_image::AtlasKind kind) {
+  switch (kind) {
+    case geometry_image::AtlasKind::automatic:
+      return "auto";
+    case geometry_image::AtlasKind::grid:
+      return "grid";
+    case geometry_image::AtlasKind::exact:
+      return "exact";
+  }
+  return "unknown";
+}
+
+const char* to_string(scene::Light::Kind kind) {
+  switch (kind) {
+    case scene::Light::Kind::directional:
+      return "directional";
+    case scene::Light::Kind::point:
+      return "point";
+    case scene::Light::Kind::spot:
+      return "spot";
+  }
+  return "unknown";
+}
+
+Json array_of(const glm::vec3& vector) {
+  return {vector.x, vector.y, vector.z};
+}
+
+// An array of what `describe` says of every item.
+template <class Items, class Describe>
+Json list(const Items& items, Describe describe) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(describe(item));
+  return array;
+}
+
+Json describe_mesh(const scene::Mesh& mesh) {
+  Json json = {
+      {"name", mesh.name}, {"triangles", mesh.triangles.size()}, {"vertices", mesh.positions.size()}};
+  if (!mesh.grids.empty()) json["grids"] = mesh.grids.size();
+  if (!mesh.influences.empty()) json["influences"] = mesh.influences.size();
+  json["targets"] = list(mesh.targets, [](const scene::MorphTarget& target) { return target.name; });
+  return json;
+}
+
+Json describe_camera(const scene::Camera& camera) {
+  Json json = {{"name", camera.name}, {"kind", camera.perspective ? "perspective" : "orthographic"}};
+  if (camera.perspective) {
+    json["yfov_degrees"] = glm::degrees(camera.yfov);
+  } else {
+    json["half_width"] = camera.xmag;
+    json["half_height"] = camera.ymag;
+  }
+  return json;
+}
+
+Json describe_material(const scene::Material& material) {
+  Json textures = Json::array();
+  const std::pair<const char*, const scene::Texture&> all[] = {
+      {"base_color", material.base_color_texture},
+      {"metallic_roughness", material.metallic_roughness_texture},
+      {"normal", material.normal_texture},
+      {"occlusion", material.occlusion_texture},
+      {"emissive", material.emissive_texture}};
+  for (const auto& [name, texture] : all) {
+    if (texture.image != scene::none) textures.push_back(name);
+  }
+  return {{"name", material.name}, {"textures", textures}};
+}
+
+Json describe_bounds(const scene::Bounds& bounds) {
+  if (bounds.empty) return nullptr;
+  return {{"lo", array_of(bounds.lo)}, {"hi", array_of(bounds.hi)}};
+}
+
+Json describe_atlas(const geometry_image::Atlas& atlas) {
+  const geometry_image::AtlasReport& report = atlas.report;
+  return {{"kind", to_string(atlas.kind)},
+          {"charts", atlas.charts.size()},
+          {"quads", report.quads},
+          {"texels", report.texels},
+          {"slots", report.slots},
+          {"depth", atlas.depth},
+          {"closed", report.closed()},
+          {"boundary_edges", report.boundary_edges},
+          {"non_manifold_edges", report.non_manifold_edges},
+          {"degenerate_triangles", report.degenerate_triangles},
+          {"duplicate_triangles", report.duplicate_triangles},
+          {"welded_vertices", report.welded_vertices},
+          {"notes", report.notes}};
+}
+
+}  // namespace
+
+Json describe_scene(const SceneOptions& options) {
+  const scene::Scene scene = scene::load(options.scene, {options.height_scale});
+  const scene::Assembly assembly = scene::assemble(scene);
+  const geometry_image::Atlas atlas = geometry_image::cached_atlas(scene, assembly, options.atlas);
+  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+  return {
+      {"scene", options.scene},
+      {"triangles", assembly.triangles.size()},
+      {"vertices", assembly.positions.size()},
+      {"placements", assembly.placements.size()},
+      {"nodes", scene.nodes.size()},
+      {"bounds", describe_bounds(scene::pose_bounds(scene, rest))},
+      {"meshes", list(scene.meshes, describe_mesh)},
+      {"skins", list(scene.skins,
+                     [](const scene::Skin& skin) {
+                       return Json{{"name", skin.name}, {"joints", skin.joints.size()}};
+                     })},
+      {"clips", list(scene.animations,
+                     [](const scene::Animation& clip) {
+                       return Json{{"name", clip.name},
+                                   {"seconds", clip.duration()},
+                                   {"channels", clip.channels.size()}};
+                     })},
+      {"cameras", list(scene.cameras, describe_camera)},
+      {"lights", list(scene.lights,
+                      [](const scene::Light& light) {
+                        return Json{{"name", light.name},
+                                    {"kind", to_string(light.kind)},
+                                    {"intensity", light.intensity}};
+                      })},
+      {"materials", list(scene.materials, describe_material)},
+      {"images", list(scene.images,
+                      [](const scene::Image& image) {
+                        return Json{{"name", image.name}, {"width", image.width}, {"height", image.height}};
+                      })},
+      {"atlas", describe_atlas(atlas)}};
+}
+
+Json describe_baked(const std::string& file) {
+  std::string hash;
+  const geometry_image::Atlas atlas = geometry_image::load_atlas(file, &hash);
+  return {{"baked", file}, {"content_hash", hash}, {"atlas", describe_atlas(atlas)}};
+}
+
+}  // namespace lodestone::app

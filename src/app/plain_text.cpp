@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "lodestone/app/describe.h"
+
+namespace lodestone::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string words(std::string key) {
+  if (key.find(':') == std::string::npos) std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
+// On one line: numbers and texts as they are, arrays and objects in brackets.
+std::string inline_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_null()) return "none";
+  if (!value.is_structured()) return value.dump();
+  if (value.empty()) return "none";
+  std::string text;
+  for (const auto& [key, item] : value.items()) {
+    if (!text.empty()) text += ", ";
+    if (value.is_object()) text += words(key) + ' ';
+    text += item.is_structured() && !item.empty() ? '(' + inline_text(item) + ')' : inline_text(item);
+  }
+  return text;
+}
+
+bool holds_objects(const Json& value) {
+  return value.is_array() && !value.empty() && value[0].is_object();
+}
+
+// An element of an array of objects: its name, then the rest.
+std::string element_line(const Json& element, size_t index) {
+  const std::string name = element.value("name", "");
+  Json rest = element;
+  rest.erase("name");
+  return std::to_string(index) + ' ' + (name.empty() ? "(no name)" : name) + ": " + inline_text(rest);
+}
+
+void print(const Json& object, const std::string& indent, std::string& text) {
+  for (const auto& [key, value] : object.items()) {
+    text += indent + words(key) + ':';
+    if (value.is_object() && !value.empty()) {
+      text += '\n';
+      print(value, indent + "  ", text);
+    } else if (holds_objects(value)) {
+      text += " " + std::to_string(value.size()) + '\n';
+      for (size_t i = 0; i < value.size(); ++i) text += indent + "  " + element_line(value[i], i) + '\n';
+    } else {
+      text += ' ' + inline_text(value) + '\n';
+    }
+  }
+}
+
+}  // namespace
+
+std::string plain_text(const Json& description) {
+  std::string text;
+  print(description, "", text);
+  return text;
+}
+
+}  // namespace lodestone::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/app/prepared_scene.h"
+
+#include <cmath>
+#include <utility>
+
+#include "lodestone/app/clock.h"
+#include "lodestone/base/log.h"
+#include "lodestone/scene/load.h"
+
+namespace lodestone::app {
+namespace {
+
+// Runs one step of the preparation and notes how long it took.
+template <class Step>
+auto timed(std::vector<report::Stage>& stages, const char* name, Step step) {
+  const double start = now_ms();
+  auto result = step();
+  stages.push_back({name, start, now_ms() - start});
+  return result;
+}
+
+}  // namespace
+
+double PreparedScene::wrap(double seconds) const {
+  if (animation == scene::none) return 0;
+  const double duration = scene.animations[animation].duration();
+  if (seconds <= duration) return seconds;
+  return duration > 0 ? std::fmod(seconds, duration) : 0;
+}
+
+scene::Pose PreparedScene::pose_at(double seconds) const {
+  scene::Pose result = scene::evaluate(scene, animation, float(seconds));
+  if (!pose.weights.empty()) scene::override_weights(scene, pose.weights, result);
+  return result;
+}
+
+scene::Bounds PreparedScene::bounds() const {
+  if (animation == scene::none) return scene::pose_bounds(scene, pose_at(0));
+  return scene::animation_bounds(scene, animation);
+}
+
+bool PreparedScene::needs_bounds(const std::string& camera) const {
+  return camera == "auto" || (camera.empty() && scene.cameras.empty());
+}
+
+std::string PreparedScene::clip_name() const {
+  if (animation == scene::none) return "";
+  const std::string& name = scene.animations[animation].name;
+  return name.empty() ? std::to_string(animation) : name;
+}
+
+PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose) {
+  PreparedScene prepared;
+  prepared.pose = pose;
+  prepared.scene =
+      timed(prepared.stages, "load", [&] { return scene::load(options.scene, {options.height_scale}); });
+  prepared.animation = scene::find_animation(prepared.scene, pose.clip);
+  prepared.pose_at(0);  // finds unknown weight names before the costly part
+  prepared.assembly = timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene); });
+  bool cached = false;
+  prepared.atlas = timed(prepared.stages, "charts", [&] {
+    return geometry_image::cached_atlas(prepared.scene, prepared.assembly, options.atlas, &cached);
+  });
+  const geometry_image::AtlasReport& report = prepared.atlas.report;
+  log::note(fmt::format("{}: {} triangles, {} charts, {} quads, {} texels{}", options.scene, report.triangles,
+                        prepared.atlas.charts.size(), report.quads, report.texels,
+                        cached ? ", atlas from the cache" : ""));
+  for (const std::string& note : report.notes) log::note(options.scene + ": " + note);
+  return prepared;
+}
+
+render::View view_of(const PreparedScene& prepared, const scene::Pose& pose, const PictureOptions& picture,
+                     const scene::Bounds& bounds) {
+  return render::find_view(prepared.scene, pose, picture.camera, bounds, picture.size.width,
+                           picture.size.height);
+}
+
+}  // namespace lodestone::app

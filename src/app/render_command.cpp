@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/app/render_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "lodestone/app/clock.h"
+#include "lodestone/app/common_options.h"
+#include "lodestone/app/frame_writer.h"
+#include "lodestone/app/interrupt.h"
+#include "lodestone/app/measure.h"
+#include "lodestone/app/open_device.h"
+#include "lodestone/app/output_path.h"
+#include "lodestone/app/prepared_scene.h"
+#include "lodestone/app/thread_limit.h"
+#include "lodestone/app/version.h"
+#include "lodestone/base/error.h"
+#include "lodestone/base/file.h"
+#include "lodestone/base/log.h"
+#include "lodestone/report/chrome_trace.h"
+#include "lodestone/report/pass_table.h"
+#include "lodestone/report/progress.h"
+#include "lodestone/report/statistics.h"
+
+namespace lodestone::app {
+namespace {
+
+struct RenderOptions {
+  SceneOptions scene;
+  PoseOptions pose;
+  FrameOptions frames;
+  PictureOptions picture;
+  DeviceOptions device;
+  std::vector<std::string> aovs;
+  float exposure = 0;
+  render::ViewTransform view = render::ViewTransform::filmic;
+  std::string output, statistics, profile;
+  report::ProgressMode progress = report::ProgressMode::automatic;
+};
+
+// Checks what no single option can say, and that everything asked for can be written.
+OutputPattern check(const RenderOptions& options) {
+  const OutputPattern output("-o", options.output);
+  check_frames(options.frames);
+  if (options.frames.range().count() > 1 && !output.numbered())
+    fail(ExitCode::usage, "-o", "`{}` names one file for {} frames; put #### where the frame number goes",
+         options.output, options.frames.range().count());
+  if (output.is_png() && !options.aovs.empty())
+    fail(ExitCode::usage, "--aov", "a PNG holds the picture alone; write an .exr with -o");
+  check_writable(output.path(options.frames.range().first));
+  for (const std::string& file : {options.statistics, options.profile}) {
+    if (!file.empty()) check_writable(file);
+  }
+  return output;
+}
+
+render::Settings settings_of(const RenderOptions& options) {
+  render::Settings settings;
+  settings.width = options.picture.size.width;
+  settings.height = options.picture.size.height;
+  settings.spp = options.picture.spp;
+  settings.seed = options.picture.seed;
+  settings.traversal = options.picture.traversal;
+  settings.view = options.view;
+  settings.exposure = options.exposure;
+  settings.aovs = options.aovs;
+  return settings;
+}
+
+// One run of `lodestone render`.
+class RenderRun {
+ public:
+  explicit RenderRun(const RenderOptions& options);
+  int run();
+
+ private:
+  // Renders until done or interrupted.
+  void render_frames();
+  bool render_frame(uint32_t frame);
+  std::map<std::string, std::string> provenance(const report::Frame& frame, const render::View& view) const;
+  void write_reports() const;
+
+  const RenderOptions& options_;
+  OutputPattern output_;
+  ThreadLimit threads_;
+  OpenDevice device_;
+  PreparedScene prepared_;
+  std::optional<render::Renderer> renderer_;
+  scene::Bounds bounds_;
+  report::RunRecord measured_;
+  FrameWriter writer_;
+  report::Progress progress_;
+};
+
+RenderRun::RenderRun(const RenderOptions& options)
+    : options_(options),
+      output_(check(options)),
+      threads_(options.device.backend.threads),
+      device_(open_device(options.device)),
+      prepared_(prepare_scene(options.scene, options.pose)),
+      progress_(log::level() == log::Level::quiet && options.progress == report::ProgressMode::automatic
+                    ? report::ProgressMode::off
+                    : options.progress,
+                options.frames.range().count()) {
+  measured_ =
+      describe_run("render", options.scene.scene, prepared_, options.picture, device_.backend->info());
+  if (prepared_.needs_bounds(options.picture.camera)) bounds_ = prepared_.bounds();
+  const double start = now_ms();
+  renderer_.emplace(*device_.backend, prepared_.scene, prepared_.assembly, prepared_.atlas,
+                    settings_of(options));
+  measured_.setup = to_dispatches(renderer_->setup_passes(), device_.origin_ms);
+  measured_.precompute.push_back({"links", start, now_ms() - start});
+  log::note(fmt::format("{}: {} traversal", device_.backend->info().name, to_string(renderer_->traversal())));
+}
+
+std::map<std::string, std::string> RenderRun::provenance(const report::Frame& frame,
+                                                         const render::View& view) const {
+  const render::DeviceInfo& device = device_.backend->info();
+  nlohmann::ordered_json times = nlohmann::ordered_json::object();
+  for (const report::PassSum& pass : report::sum_by_name(frame.dispatches))
+    times[pass.name] = pass.device_ms.value_or(pass.wall_ms);
+  std::map<std::string, std::string> text = {
+      {"version", version()},
+      {"commit", commit()},
+      {"device", device.name},
+      {"driver", device.driver},
+      {"scene", options_.scene.scene},
+      {"tracer", measured_.tracer},
+      {"traversal", to_string(renderer_->traversal())},
+      {"seed", std::to_string(options_.picture.seed)},
+      {"spp", std::to_string(options_.picture.spp)},
+      {"frame", std::to_string(frame.frame)},
+      {"time", fmt::format("{}", frame.time_s)},
+      {"camera", view.name},
+      {"clip", prepared_.clip_name()},
+      {"pass_ms", times.dump()},  // the only one that differs between two runs
+  };
+  std::map<std::string, std::string> metadata;
+  for (auto& [name, value] : text) {
+    if (!value.empty()) metadata["lodestone:" + name] = std::move(value);
+  }
+  return metadata;
+}
+
+bool RenderRun::render_frame(uint32_t frame) {
+  report::Frame measured;
+  measured.frame = frame;
+  measured.time_s = prepared_.wrap(options_.frames.seconds(frame));
+  measured.start_ms = now_ms();
+  const scene::Pose pose = prepared_.pose_at(measured.time_s);
+  const render::View view = view_of(prepared_, pose, options_.picture, bounds_);
+  std::optional<render::FrameResult> result = renderer_->render(pose, view, [this] {
+    progress_.tick();
+    return interrupted();
+  });
+  if (!result) return false;
+  measured.wall_ms = result->wall_ms;
+  measured.dispatches = to_dispatches(result->passes, device_.origin_ms);
+  image::Image image = std::move(output_.is_png() ? result->display : result->linear);
+  image.metadata = provenance(measured, view);
+  writer_.push(output_.path(frame), std::move(image));
+  measured_.frames.push_back(std::move(measured));
+  progress_.frame_done();
+  return true;
+}
+
+void RenderRun::render_frames() {
+  const FrameRange range = options_.frames.range();
+  try {
+    for (uint32_t frame = range.first; frame <= range.last && !interrupted(); ++frame) {
+      if (!render_frame(frame)) break;
+    }
+  } catch (...) {
+    writer_.finish();  // what went wrong with an earlier frame comes first
+    throw;
+  }
+  writer_.finish();
+}
+
+void RenderRun::write_reports() const {
+  if (!options_.statistics.empty()) write_file(options_.statistics, report::statistics_json(measured_));
+  if (!options_.profile.empty()) write_file(options_.profile, report::chrome_trace(measured_));
+  if (log::level() == log::Level::verbose)
+    fmt::print(stderr, "{}", report::pass_table(report::sum_by_name(report::frame_dispatches(measured_))));
+}
+
+int RenderRun::run() {
+  const KeepResults keep;
+  render_frames();
+  progress_.clear();
+  measured_.device_bytes = device_.backend->allocated_bytes();
+  write_reports();
+  const uint32_t wanted = options_.frames.range().count();
+  if (measured_.frames.size() == wanted) return int(ExitCode::done);
+  log::warn(fmt::format("interrupted: {} of {} frames are written", measured_.frames.size(), wanted));
+  return int(ExitCode::interrupted);
+}
+
+void add_output_options(CLI::App& app, RenderOptions& options) {
+  app.add_option(
+         "-o,--output", options.output,
+         "An .exr (linear, with AOVs) or .png (for display); #### in its name becomes the frame number")
+      ->required()
+      ->type_name("OUT");
+  add_value(app, "--aov", "LIST", fmt::format("More channels of an .exr: {}", join_names(aov_names())),
+            [&](const std::string& text) {
+              options.aovs = parse_list("--aov", text);
+              for (const std::string& name : options.aovs) parse_choice("--aov", name, aov_names());
+            });
+  add_value(
+      app, "--exposure", "EV", "Stops brighter or darker, of a .png only (default: 0)",
+      [&](const std::string& text) { options.exposure = float(parse_number("--exposure", text, -64, 64)); });
+  add_value(app, "--view", "NAME", "Tone curve of a .png: filmic (default) or linear",
+            [&](const std::string& text) {
+              options.view = parse_choice("--view", text, {"filmic", "linear"}) == "linear"
+                                 ? render::ViewTransform::linear
+                                 : render::ViewTransform::filmic;
+            });
+}
+
+void add_report_options(CLI::App& app, RenderOptions& options) {
+  app.add_option("--stats", options.statistics, "Write times and counters as JSON")->type_name("FILE.json");
+  app.add_option("--profile", options.profile, "Write a Chrome trace, for Perfetto")->type_name("FILE.json");
+  app.add_flag("--counters", options.device.backend.counters,
+               "Count rays, visits, tests and memory traffic (slower)");
+  add_value(app, "--progress", "MODE", "auto (default), off, or json: a line a frame, all on standard error",
+            [&](const std::string& text) {
+              parse_choice("--progress", text, {"auto", "off", "json"});
+              options.progress = text == "off"    ? report::ProgressMode::off
+                                 : text == "json" ? report::ProgressMode::json
+                                                  : report::ProgressMode::automatic;
+            });
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, std::function<int()>& run) {
+  CLI::App* command = app.add_subcommand("render", "Render one image, or a sequence of them");
+  auto options = std::make_shared<RenderOptions>();
+  add_scene_argument(*command, options->scene);
+  add_output_options(*command, *options);
+  add_tracer_option(*command);
+  add_atlas_options(*command, options->scene);
+  add_picture_options(*command, options->picture);
+  add_frame_options(*command, options->frames);
+  add_pose_options(*command, options->pose);
+  add_device_options(*command, options->device);
+  add_report_options(*command, *options);
+  add_log_options(*command);
+  command->footer(
+      "A clip loops: frame F shows the time F / fps, wrapped into the clip.\n"
+      "Example: lodestone render Fox.glb -o fox.####.exr --frames 0-47 --clip Run --aov depth,normal");
+  command->callback([options, &run] { run = [options] { return RenderRun(*options).run(); }; });
+}
+
+}  // namespace lodestone::app
