@@ -42,7 +42,7 @@ BrowSection brow_section(float along) {
   section.middle = {glm::mix(0.13f, 0.66f, along), 0.435f + 0.10f * arch - 0.03f * along};
   const float taper = std::sqrt(std::max(1 - std::pow(2 * along - 1, 4.0f), 0.0f));
   section.width = 0.012f + 0.048f * taper * (1 - 0.45f * along);
-  section.height = 0.042f * taper;
+  section.height = 0.034f * taper;
   return section;
 }
 
@@ -87,7 +87,7 @@ Mesh head_brows(uint32_t material) {
         const BrowSection section = brow_section(side > 0 ? along : 1 - along);
         const Aim aim = section.middle + Aim{0, section.width * std::cos(angle)};
         const float lift = section.height * std::sin(angle) + 0.004f;
-        out.push_back(snap(skin_point({side * aim.azimuth, aim.elevation}, e, 0, lift)));
+        out.push_back(snap(skin_point({side * aim.azimuth, aim.elevation}, e, lift)));
       }
     return out;
   });

@@ -38,6 +38,19 @@ float side_of(Aim rest) {
   return rest.azimuth < 0 ? -1.0f : 1.0f;
 }
 
+// +1 above the mouth, -1 below. In elliptic coordinates whose foci are the corners of the mouth, the angle
+// goes smoothly from one to the other around a corner, and jumps only across the slit.
+float mouth_side(Aim rest) {
+  const Aim line = mouth_line(glm::clamp(rest.azimuth / mouth_half_width, -1.0f, 1.0f));
+  const float x = rest.azimuth / mouth_half_width;
+  const float y = (rest.elevation - line.elevation) / mouth_half_width;
+  const float b = x * x + y * y - 1;
+  const float sine = std::sqrt(glm::clamp(0.5f * (std::sqrt(b * b + 4 * y * y) - b), 0.0f, 1.0f));
+  const float reach = std::sqrt(x * x + y * y);
+  const float full = std::min(sine * (1 + 0.35f * reach), 1.0f);
+  return (y < 0 ? -1.0f : 1.0f) * full * (1.5f - 0.5f * full * full);
+}
+
 }  // namespace
 
 std::span<const Shape> head_shapes() {
@@ -45,7 +58,7 @@ std::span<const Shape> head_shapes() {
 }
 
 Aim mouth_line(float across) {
-  return {mouth_half_width * across, -0.475f + 0.045f * across * across};
+  return {mouth_half_width * across, -0.475f + 0.045f * across * across + 0.012f * across};
 }
 
 Aim skin_slide(Aim rest, const Expression& e) {
@@ -57,9 +70,11 @@ Aim skin_slide(Aim rest, const Expression& e) {
     slide.elevation += amount * elevation;
   };
   if (e.smile != 0 || e.frown != 0 || e.pucker != 0) {
-    const float at_corner = both(rest, corner, {0.33f, 0.30f});
-    add(e.smile * at_corner, 0.10f, 0.11f);
-    add(e.frown * at_corner, 0.0f, -0.11f);
+    // The line of the mouth bends into a parabola.
+    const float t = std::min(std::abs(rest.azimuth) / mouth_half_width, 1.1f);
+    const float mouth = both(rest, {0.20f, corner.elevation}, {0.58f, 0.36f});
+    add(e.smile * mouth, 0.10f * t, 0.13f * t * t - 0.025f);
+    add(e.frown * mouth, -0.02f * t, 0.02f - 0.12f * t * t);
     const float lips = both(rest, {0.10f, corner.elevation}, {0.55f, 0.32f});
     add(e.pucker * lips, -0.48f * std::abs(rest.azimuth), 0);
   }
@@ -68,7 +83,13 @@ Aim skin_slide(Aim rest, const Expression& e) {
     add(e.brow_up * brow, 0, 0.12f);
     add(e.brow_down * brow, -0.05f * std::min(std::abs(rest.azimuth) / 0.1f, 1.0f), -0.09f);
   }
-  if (e.sneer != 0) add(e.sneer * both(rest, {0.16f, -0.30f}, {0.20f, 0.22f}), 0.02f, 0.07f);
+  if (e.grin != 0 || e.jaw != 0) {
+    const float lips = bump(rest, {0, corner.elevation}, {0.60f, 0.42f}) * mouth_side(rest);
+    add(e.grin * lips, 0, lips > 0 ? 0.075f : 0.060f);
+    add(e.jaw * std::max(lips, 0.0f), 0, 0.030f);
+    add(e.grin * both(rest, corner, {0.30f, 0.30f}), 0.03f, 0.02f);
+  }
+  if (e.sneer != 0) add(e.sneer * both(rest, {0.15f, -0.33f}, {0.24f, 0.24f}), 0.015f, 0.085f);
   return slide;
 }
 
@@ -78,27 +99,13 @@ float skin_swell(Aim rest, const Expression& e) {
   if (e.puff != 0) swell += e.puff * 0.13f * both(rest, {0.56f, -0.42f}, {0.45f, 0.36f});
   if (e.pucker != 0) swell += e.pucker * 0.10f * both(rest, {0, -0.47f}, {0.34f, 0.30f});
   if (e.brow_down != 0) swell += e.brow_down * 0.03f * both(rest, {0.16f, 0.40f}, {0.2f, 0.15f});
-  if (e.sneer != 0) swell += e.sneer * 0.025f * both(rest, {0.13f, -0.17f}, {0.14f, 0.12f});
+  if (e.sneer != 0) swell += e.sneer * 0.035f * both(rest, {0.17f, -0.14f}, {0.16f, 0.16f});
   return swell;
 }
 
-float jaw_share(Aim rest, int lip) {
-  // In elliptic coordinates whose foci are the corners of the mouth, the angle goes smoothly from the upper
-  // to the lower lip around a corner, and steeply through the corner only.
-  const Aim line = mouth_line(glm::clamp(rest.azimuth / mouth_half_width, -1.0f, 1.0f));
-  const float f = mouth_half_width, x = rest.azimuth;
-  float y = rest.elevation - line.elevation;
-  if (lip != 0) y = std::max(y * float(lip), 0.0f) * float(lip);
-  const float b = x * x + y * y - f * f;
-  const float sine_squared = (-b + std::sqrt(b * b + 4 * f * f * y * y)) / (2 * f * f);
-  float sine = std::sqrt(glm::clamp(sine_squared, 0.0f, 1.0f));
-  const bool below = lip != 0 ? lip < 0 : y < 0;
-  const float reach = std::sqrt(x * x + y * y) / f;
-  sine = std::min(sine * (1 + 0.35f * reach), 1.0f);
-  sine *= 1.5f - 0.5f * sine * sine;
-  const float share = 0.5f + (below ? 0.5f : -0.5f) * sine;
+float jaw_share(Aim rest) {
   // Not the neck, nor what lies behind the hinge.
-  return share * glm::smoothstep(-1.22f, -0.92f, rest.elevation) *
+  return (0.5f - 0.5f * mouth_side(rest)) * glm::smoothstep(-1.22f, -0.92f, rest.elevation) *
          (1 - glm::smoothstep(0.95f, 1.65f, std::abs(rest.azimuth)));
 }
 
@@ -110,11 +117,11 @@ glm::vec3 turn_jaw(glm::vec3 point, float share, const Expression& e) {
   return jaw_hinge + glm::vec3(d.x, d.y * c - d.z * s, d.y * s + d.z * c);
 }
 
-glm::vec3 skin_point(Aim rest, const Expression& e, int lip, float lift) {
+glm::vec3 skin_point(Aim rest, const Expression& e, float lift) {
   glm::vec3 p = head_point(rest + skin_slide(rest, e));
   const float swell = skin_swell(rest, e) + lift;
   if (swell != 0) p += swell * head_normal(p);
-  return turn_jaw(p, jaw_share(rest, lip), e);
+  return turn_jaw(p, jaw_share(rest), e);
 }
 
 }  // namespace lodestone::scene::builtin

@@ -35,15 +35,14 @@ std::span<const Shape> head_shapes();
 Aim skin_slide(Aim rest, const Expression& expression);
 // How far it lifts off along the normal, in units.
 float skin_swell(Aim rest, const Expression& expression);
-// The share of the jaw's turn that skin takes part in: 0 the upper face, 1 the chin. On the lips, whose aims
-// nearly meet, `lip` says which one: +1 the upper, -1 the lower, 0 elsewhere.
-float jaw_share(Aim rest, int lip);
+// The share of the jaw's turn that skin takes part in: 0 the upper face, 1 the chin.
+float jaw_share(Aim rest);
 // Turns a point about the hinge of the jaw by `share` of the expression's angle.
 glm::vec3 turn_jaw(glm::vec3 point, float share, const Expression& expression);
 
 // Where the skin that rests at an aim is, raised by `lift` along the normal: slides, swells, turns with the
 // jaw.
-glm::vec3 skin_point(Aim rest, const Expression& expression, int lip = 0, float lift = 0);
+glm::vec3 skin_point(Aim rest, const Expression& expression, float lift = 0);
 
 // The line where the lips meet at rest, from -1 (right corner) to 1.
 Aim mouth_line(float across);

@@ -12,8 +12,8 @@ namespace {
 using glm::vec3;
 
 constexpr float pi = 3.14159265f;
-constexpr glm::ivec3 cap_cells(32, 26, 32);
-constexpr uint32_t lock_columns = 16, lock_rows = 27;
+constexpr glm::ivec3 cap_cells(30, 18, 30);
+constexpr uint32_t lock_columns = 14, lock_rows = 19;
 
 // Elevation of the hairline by azimuth: forehead, temple, sideburn, behind the ear, nape.
 float hairline(float azimuth) {
@@ -32,89 +32,117 @@ float hairline(float azimuth) {
   return glm::mix(line[k - 1].y, line[k].y, t * t * (3 - 2 * t));
 }
 
-vec3 cap_point(vec3 d) {
-  const Aim aim = aim_at(head_centre + d);
+// `inside`: elevation above the hairline.
+vec3 cap_surface(float azimuth, float inside) {
+  const Aim aim{azimuth, hairline(azimuth) + inside};
+  const vec3 d = direction(aim);
   const vec3 skin = head_point(aim);
-  const float inside = aim.elevation - hairline(aim.azimuth);
-  const float cover = glm::smoothstep(-0.05f, 0.07f, inside);
+  const float cover = glm::smoothstep(-0.06f, 0.04f, inside);
   // Strands run down from the crown.
   const vec3 crown = glm::normalize(vec3(-0.12f, 1, -0.35f));
   const vec3 ahead = glm::normalize(glm::cross(vec3(1, 0, 0), crown));
   const float around = std::atan2(d.x, glm::dot(d, ahead));
   const float away = 1 - glm::dot(d, crown);
-  const float strands = std::sin(17 * around + 5 * away) + 0.5f * std::sin(41 * around - 4 * away + 1);
-  const float thick = 0.055f + 0.045f * glm::smoothstep(0.0f, 0.5f, inside);
+  const float strands = std::sin(19 * around + 5 * away) + 0.5f * std::sin(43 * around - 4 * away + 1);
+  const float thick = 0.045f + 0.045f * glm::smoothstep(0.0f, 0.4f, inside);
   const float ripple = 0.011f * strands * glm::smoothstep(0.05f, 0.4f, away);
-  return skin + d * (glm::mix(-0.12f, thick, cover) + ripple * cover);
+  return skin + d * (glm::mix(-0.10f, thick, cover) + ripple * cover);
 }
 
-// A tapering strip along a cubic Bezier curve; `flat` is the direction it is thin in, near its root.
+// The cap's rows follow the hairline, the lowest below the skin; its floor is inside the skull.
+vec3 cap_point(glm::ivec3 point) {
+  const glm::vec2 plan = 2.0f * glm::vec2(point.x, point.z) / glm::vec2(cap_cells.x, cap_cells.z) - 1.0f;
+  const float m = std::max(std::abs(plan.x), std::abs(plan.y));
+  const glm::vec2 border = m > 0 ? plan / m : glm::vec2(0, 1);
+  float azimuth = 0.25f * pi * border.x;
+  if (border.y < 1) azimuth = std::copysign(0.25f * pi * (2 - border.y), border.x);
+  if (border.y <= -1) azimuth = std::copysign(0.25f * pi * (4 - std::abs(border.x)), border.x);
+  const float up = float(point.y) / float(cap_cells.y);
+  const float pole = 0.5f * pi - hairline(azimuth);
+  const float wall = -0.08f + 0.14f * up + (0.55f * pole - 0.06f) * up * up;
+  if (point.y == cap_cells.y) return cap_surface(azimuth, glm::mix(pole, wall, m));
+  const vec3 p = cap_surface(azimuth, wall);
+  return point.y == 0 ? glm::mix(vec3(0, 0.3f, -0.1f), p, m) : p;
+}
+
+// A place over the scalp: `pitch` from the brow (0) over the top (90) to the back (180), `side` towards the
+// left ear (90), both in degrees; `lift` in units.
+struct Place {
+  float pitch, side, lift;
+};
+
+// A tapering strip along the cubic Bezier curve of four places.
 struct Lock {
-  vec3 curve[4];
-  vec3 flat;
+  Place path[4];
   float width, thickness;
 };
 
-vec3 bezier(const Lock& lock, float t) {
-  const float s = 1 - t;
-  return lock.curve[0] * (s * s * s) + lock.curve[1] * (3 * s * s * t) + lock.curve[2] * (3 * s * t * t) +
-         lock.curve[3] * (t * t * t);
+constexpr vec3 scalp_centre(0, 0.27f, -0.10f);
+constexpr vec3 scalp_radii(0.86f, 0.84f, 0.93f);
+
+vec3 place_point(Place place) {
+  const float pitch = glm::radians(place.pitch), side = glm::radians(place.side);
+  const vec3 d(std::sin(side), std::cos(side) * std::sin(pitch), std::cos(side) * std::cos(pitch));
+  return scalp_centre + d * (1 / glm::length(d / scalp_radii) + place.lift);
 }
 
 vec3 lock_point(const Lock& lock, float t, float angle) {
-  const vec3 along = glm::normalize(bezier(lock, t + 0.01f) - bezier(lock, t - 0.01f));
-  const vec3 side = glm::normalize(glm::cross(lock.flat, along));
+  const vec3 p[4] = {place_point(lock.path[0]), place_point(lock.path[1]), place_point(lock.path[2]),
+                     place_point(lock.path[3])};
+  const float s = 1 - t;
+  const vec3 spine =
+      p[0] * (s * s * s) + p[1] * (3 * s * s * t) + p[2] * (3 * s * t * t) + p[3] * (t * t * t);
+  const vec3 along =
+      glm::normalize((p[1] - p[0]) * (s * s) + (p[2] - p[1]) * (2 * s * t) + (p[3] - p[2]) * (t * t));
+  const vec3 away = glm::normalize(spine - scalp_centre);
+  const vec3 side = glm::normalize(glm::cross(away, along));
   const vec3 up = glm::cross(along, side);
-  const float c = std::cos(angle), s = std::sin(angle);
-  // Full at a third of the length, pointed at the end.
-  const float root = std::min(t / 0.12f, 1.0f);
+  // Round at the root, pointed at the end.
+  const float root = std::min(t / 0.22f, 1.0f);
   const float taper =
-      std::sqrt(std::max(1 - (1 - root) * (1 - root), 0.0f)) * std::pow(std::max(1 - t * t * t, 0.0f), 0.7f);
-  const float groove = 1 - 0.16f * bump((c - 0.35f) / 0.22f) - 0.16f * bump((c + 0.35f) / 0.22f);
-  return bezier(lock, t) + side * (lock.width * (0.06f + 0.94f * taper) * c) +
-         up * (lock.thickness * taper * s * groove);
+      std::sqrt(std::max(1 - (1 - root) * (1 - root), 0.0f)) * std::pow(std::max(1 - t * t * t, 0.0f), 0.75f);
+  const float x = std::cos(angle), y = std::sin(angle);
+  const float groove = 1 - 0.20f * bump((x - 0.30f) / 0.22f) - 0.14f * bump((x + 0.38f) / 0.20f);
+  return spine + side * (lock.width * (0.05f + 0.95f * taper) * x) +
+         up * (lock.thickness * taper * y * groove);
 }
 
-const std::array<Lock, 9>& locks() {
-  static const std::array<Lock, 9> all = {{
-      {{{-0.42f, 0.80f, 0.42f}, {-0.46f, 1.15f, 0.72f}, {-0.15f, 1.42f, 0.75f}, {0.30f, 1.42f, 0.62f}},
-       {-0.5f, 0.4f, 1},
-       0.17f,
-       0.085f},
-      {{{-0.22f, 0.82f, 0.56f}, {-0.25f, 1.10f, 0.95f}, {0.10f, 1.38f, 0.92f}, {0.52f, 1.30f, 0.72f}},
-       {-0.2f, 0.4f, 1},
-       0.17f,
-       0.09f},
-      {{{0.02f, 0.80f, 0.62f}, {0.02f, 1.05f, 1.02f}, {0.32f, 1.28f, 0.98f}, {0.68f, 1.14f, 0.72f}},
-       {0, 0.4f, 1},
-       0.16f,
-       0.09f},
-      {{{0.24f, 0.80f, 0.56f}, {0.28f, 1.00f, 0.92f}, {0.52f, 1.15f, 0.85f}, {0.80f, 0.98f, 0.58f}},
-       {0.3f, 0.5f, 1},
-       0.15f,
-       0.085f},
-      {{{0.44f, 0.76f, 0.44f}, {0.52f, 0.92f, 0.70f}, {0.72f, 0.98f, 0.60f}, {0.88f, 0.78f, 0.36f}},
-       {0.6f, 0.5f, 0.8f},
-       0.13f,
-       0.075f},
-      {{{-0.30f, 0.98f, 0.20f}, {-0.36f, 1.35f, 0.40f}, {0.00f, 1.52f, 0.40f}, {0.42f, 1.38f, 0.28f}},
-       {-0.4f, 0.8f, 0.6f},
-       0.19f,
-       0.09f},
-      {{{0.05f, 1.02f, 0.15f}, {0.05f, 1.35f, 0.45f}, {0.38f, 1.40f, 0.40f}, {0.74f, 1.12f, 0.20f}},
-       {0.1f, 0.8f, 0.6f},
-       0.19f,
-       0.09f},
-      {{{-0.58f, 0.72f, 0.26f}, {-0.70f, 1.02f, 0.45f}, {-0.55f, 1.22f, 0.48f}, {-0.20f, 1.32f, 0.42f}},
-       {-0.8f, 0.4f, 0.6f},
-       0.14f,
-       0.075f},
-      {{{-0.10f, 1.02f, -0.35f}, {-0.16f, 1.20f, -0.50f}, {-0.12f, 1.30f, -0.66f}, {0.02f, 1.24f, -0.86f}},
-       {0, 1, -0.4f},
-       0.10f,
-       0.06f},
-  }};
-  return all;
+// The quiff rises from the forehead and sweeps to the left; shingles follow it over the top and down the
+// back.
+std::vector<Lock> make_locks() {
+  std::vector<Lock> locks;
+  const auto add = [&](Place a, Place b, Place c, Place d, float width, float thickness) {
+    locks.push_back({{a, b, c, d}, width, thickness});
+  };
+  for (int k = 0; k < 7; ++k) {
+    const float x = float(k), side = -38 + 11.5f * x, full = 1 - 0.09f * x;
+    add({22 + 0.6f * x, side, -0.03f}, {26, side, 0.33f * full}, {60 - 2 * x, side + 12, 0.68f * full},
+        {78 - 4 * x, side + 46 - 2 * x, 0.36f * full}, 0.150f - 0.006f * x, 0.085f - 0.004f * x);
+  }
+  for (int k = 0; k < 6; ++k) {
+    const float x = float(k), side = -44 + 14 * x;
+    add({52, side, 0.04f}, {62, side + 2, 0.38f - 0.03f * x}, {92, side + 14, 0.34f - 0.03f * x},
+        {120, side + 28, 0.06f}, 0.165f, 0.080f);
+  }
+  for (int k = 0; k < 6; ++k) {
+    const float side = -50 + 19 * float(k);
+    add({94, side, 0.04f}, {112, side, 0.25f}, {140, side + 5, 0.22f}, {172, side + 8, 0.04f}, 0.175f,
+        0.075f);
+  }
+  for (int k = 0; k < 6; ++k) {
+    const float side = -52 + 20.5f * float(k);
+    add({138, side, 0.04f}, {154, side, 0.20f}, {180, side * 0.95f, 0.19f}, {208, side * 0.8f, 0.03f}, 0.170f,
+        0.065f);
+  }
+  for (int k = 0; k < 5; ++k) {
+    const float side = -48 + 24 * float(k);
+    add({172, side, 0.04f}, {186, side, 0.16f}, {206, side * 0.85f, 0.15f}, {230, side * 0.65f, 0.0f}, 0.155f,
+        0.055f);
+  }
+  // Two that will not lie down.
+  add({25, 3, 0.0f}, {30, 2, 0.34f}, {18, -2, 0.32f}, {10, -8, 0.12f}, 0.052f, 0.034f);
+  add({128, -6, 0.0f}, {132, -8, 0.22f}, {142, -2, 0.32f}, {156, 8, 0.30f}, 0.075f, 0.045f);
+  return locks;
 }
 
 }  // namespace
@@ -125,9 +153,8 @@ Mesh head_hair(uint32_t material) {
   std::vector<vec3> positions;
   const BoxLattice cap(cap_cells);
   for (const BoxLattice::Face face : BoxLattice::faces) add_grid(mesh, cap.chart(face));
-  for (const glm::ivec3& point : cap.points())
-    positions.push_back(snap(cap_point(cube_sphere_direction(cap, point))));
-  for (const Lock& lock : locks()) {
+  for (const glm::ivec3& point : cap.points()) positions.push_back(snap(cap_point(point)));
+  for (const Lock& lock : make_locks()) {
     const ZippedTube tube(lock_columns, lock_rows, uint32_t(positions.size()));
     add_grid(mesh, tube.chart());
     for (const ZippedTube::Sample& sample : tube.samples())

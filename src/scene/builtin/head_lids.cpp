@@ -15,12 +15,12 @@ glm::vec2 lid_edge(float across, bool upper, float blink, const Expression& e) {
   constexpr float half_width = 0.74f;
   const float arch = std::pow(std::max(1 - std::abs(across * across * across), 0.0f), 0.62f);
   const float follow = 0.16f * e.look_up;  // lids go with the gaze
-  const float open = upper ? 0.52f + 0.17f * e.wide + follow - 0.10f * e.brow_down
-                           : -0.44f - 0.08f * e.wide + 0.10f * e.smile + 0.5f * follow;
-  const float closed = -0.20f;
+  const float open = upper ? 0.47f + 0.20f * e.wide + follow - 0.10f * e.brow_down
+                           : -0.42f - 0.10f * e.wide + 0.10f * e.smile + 0.5f * follow;
+  const float closed = -0.20f * (1 - across * across);
   // The upper lid is highest towards the nose, the lower one lowest towards the temple.
   const float lean = (upper ? -0.07f : 0.05f) * across * (1 - across * across) * (1 - blink);
-  return {half_width * across, glm::mix(open, closed, blink) * arch + lean + 0.06f * across};
+  return {half_width * across, glm::mix(open * arch, closed, blink) + lean + 0.06f * across};
 }
 
 glm::vec3 eye_direction(glm::vec2 angles) {
@@ -28,56 +28,69 @@ glm::vec3 eye_direction(glm::vec2 angles) {
   return {std::sin(angles.x) * c, std::sin(angles.y), std::cos(angles.x) * c};
 }
 
+// The aim of the edge at `turn` of the way from the right corner to the left.
+Aim edge_aim(float turn, bool upper, float side, const Expression& e) {
+  const float across = side * glm::mix(2 * turn - 1, -std::cos(3.14159265f * turn), 0.35f);
+  const glm::vec3 d = eye_direction(lid_edge(across, upper, e.blink[side > 0 ? 0 : 1], e));
+  return aim_at(glm::vec3(side, 1, 1) * (eye_centre + lid_radius * d));
+}
+
+// How far a row is on its way from the border of the hole to the edge of the lid; denser towards the edge.
+float row_share(uint32_t row) {
+  return 1 - std::pow(1 - float(row) / float(skin_rows - 1), 1.4f);
+}
+
 }  // namespace
+
+void HeadSkin::lay_lids(const Ring& ring, float side) {
+  for (uint32_t column = 0; column < ring.border.size(); ++column) {
+    const Seam seam = ring_seam(ring, column);
+    const Aim start = aims_[ring.border[column]];
+    const Aim edge = edge_aim(seam.turn, seam.upper, side, Expression{});
+    for (uint32_t row = 1; row < skin_rows; ++row)
+      aims_[ring_vertex(ring, column, row)] = start + row_share(row) * (edge - start);
+  }
+}
 
 void HeadSkin::pose_eye(const Ring& ring, float side, const Expression& e,
                         std::vector<glm::vec3>& out) const {
-  const glm::vec3 centre(side * eye_centre.x, eye_centre.y, eye_centre.z);
-  const uint32_t around = uint32_t(ring.border.size()), half = around / 2;
-  const uint32_t quarter =
-      uint32_t(ring.hi.y - ring.lo.y) / 2;  // samples from a corner of the hole to a corner of the eye
-  const float blink = e.blink[side > 0 ? 0 : 1];
-  for (uint32_t column = 0; column < around; ++column) {
-    const uint32_t u = (column + quarter) % around;
-    const bool upper = u > half;
-    const float turn = float(upper ? around - u : u) / float(half);
-    const float even = 2 * turn - 1;
-    const float across = side * glm::mix(even, -std::cos(3.14159265f * turn), 0.35f);
-    const auto edge_aim = [&](float shut, const Expression& by) {
-      const glm::vec3 d = eye_direction(lid_edge(across, upper, shut, by));
-      return aim_at(centre + lid_radius * glm::vec3(side * d.x, d.y, d.z));
-    };
-    const Aim start = aims_[ring.border[column]];
-    const Aim edge = edge_aim(blink, e);
+  const glm::vec3 centre = glm::vec3(side, 1, 1) * eye_centre;
+  for (uint32_t column = 0; column < ring.border.size(); ++column) {
+    const Seam seam = ring_seam(ring, column);
+    const Aim rest = aims_[ring.border[column]], start = rest + skin_slide(rest, e);
+    const Aim edge = edge_aim(seam.turn, seam.upper, side, e);
+    const float swell = skin_swell(rest, e), share = jaw_share(rest);
     for (uint32_t row = 1; row < skin_rows; ++row) {
-      const float x = float(row) / float(skin_rows - 1);
-      const float s = 1 - std::pow(1 - x, 1.4f);
-      // The edge is a soft rim.
-      const float rim = 0.010f * bump((x - 0.97f) / 0.25f);
-      out[ring_vertex(ring, column, row)] = skin_point(start + s * (edge - start), e, 0, rim);
+      // What moves the face fades towards the edge of the lid, which keeps to the eyeball: a soft rim.
+      const uint32_t v = ring_vertex(ring, column, row);
+      const float s = row_share(row);
+      const Aim aim = start + s * (edge - start);
+      const float rim = 0.010f * bump((float(row) / float(skin_rows - 1) - 0.97f) / 0.25f);
+      const float lift = (1 - s) * (1 - s) * swell + rim;
+      glm::vec3 p = face_point(v, aim);
+      if (lift != 0) p += lift * face_normal(v, aim, p);
+      out[v] = turn_jaw(p, (1 - s) * share, e);
     }
     // Through the slit: the first two rows belong to the lid, the others rest inside the eyeball.
-    const glm::vec3 lid = out[ring_vertex(ring, column, skin_rows - 1)] - centre;
-    const glm::vec3 inner = head_point(edge_aim(0, Expression{})) - centre;
+    const uint32_t last = ring_vertex(ring, column, skin_rows - 1);
     constexpr std::array<float, 5> depths = {0.955f, 0.87f, 0.74f, 0.62f, 0.5f};
     for (uint32_t k = 0; k < depths.size(); ++k)
-      out[ring_vertex(ring, column, skin_rows + k)] = centre + depths[k] * (k < 2 ? lid : inner);
+      out[ring_vertex(ring, column, skin_rows + k)] =
+          glm::mix(centre, k < 2 ? out[last] : points_[last], depths[k]);
   }
 }
 
 void HeadSkin::color_eye(const Ring& ring, float side, std::vector<glm::vec4>& out) const {
-  const uint32_t around = uint32_t(ring.border.size()), half = around / 2;
-  const uint32_t quarter = uint32_t(ring.hi.y - ring.lo.y) / 2;
   const glm::vec3 lash(0.05f, 0.018f, 0.012f), wet(0.62f, 0.25f, 0.20f);
-  for (uint32_t column = 0; column < around; ++column) {
-    const bool upper = (column + quarter) % around > half;
+  for (uint32_t column = 0; column < ring.border.size(); ++column) {
+    const bool upper = ring_seam(ring, column).upper;
     for (uint32_t row = 1; row < ring.rows; ++row) {
       const Aim edge{side * 0.40f, 0.15f};
       const Aim aim = aims_[ring.border[column]];
       const float s = float(row) / float(skin_rows - 1);
       glm::vec3 color = skin_color(aim + 0.5f * std::min(s, 1.0f) * (edge - aim));
-      if (row + 1 >= skin_rows) color = upper ? lash : wet;
-      if (row + 2 == skin_rows && upper) color = glm::mix(color, lash, 0.6f);
+      if (row + 1 >= skin_rows) color = wet;
+      if (upper) color = glm::mix(color, lash, glm::clamp(float(row + 4) - float(skin_rows), 0.0f, 2.0f) / 2);
       out[ring_vertex(ring, column, row)] = glm::vec4(color, 1);
     }
   }

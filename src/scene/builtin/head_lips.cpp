@@ -24,47 +24,63 @@ float lip_fullness(float across, bool upper) {
   return (upper ? 0.040f : 0.055f) * std::pow(1 - across * across, 0.6f);
 }
 
+// Where a column meets the other lip: -1 in the right corner of the mouth, 1 in the left.
+float across_mouth(float turn) {
+  return glm::mix(2 * turn - 1, -std::cos(pi * turn), 0.45f);
+}
+
+// From 0 where a lip begins to pi where it meets the other one.
+float lip_angle(uint32_t k) {
+  return pi * float(k + 1) / float(lip_rows);
+}
+
+// 1 in the middle of the mouth, 0 in the corners.
+float roundness(float across) {
+  return std::sqrt(std::max(1 - across * across, 0.0f));
+}
+
 }  // namespace
 
-void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm::vec3>& out) const {
-  const uint32_t around = uint32_t(ring.border.size()), half = around / 2;
-  const uint32_t quarter = uint32_t(ring.hi.y - ring.lo.y) / 2;
-  for (uint32_t column = 0; column < around; ++column) {
-    const uint32_t u = (column + quarter) % around;
-    const bool corner = u == 0 || u == half;
-    const bool upper = u > half;
-    const float turn = float(upper ? around - u : u) / float(half);
-    const float across =
-        corner ? (u == 0 ? -1.0f : 1.0f) : glm::mix(2 * turn - 1, -std::cos(pi * turn), 0.45f);
-    const float round = std::sqrt(1 - across * across);
-    const float up = upper ? 1.0f : -1.0f;
-    const int lip = upper ? 1 : -1;
+void HeadSkin::lay_lips(const Ring& ring) {
+  for (uint32_t column = 0; column < ring.border.size(); ++column) {
+    const Seam seam = ring_seam(ring, column);
+    const float across = across_mouth(seam.turn), round = roundness(across), up = seam.upper ? 1.0f : -1.0f;
     const Aim line = mouth_line(across);
     const Aim contact = line + Aim{0, up * 0.0015f * round};
-    const Aim border = line + Aim{0.022f * across * (1 - round), up * lip_height(across, upper)};
+    const Aim border = line + Aim{0.022f * across * (1 - round), up * lip_height(across, seam.upper)};
     const Aim start = aims_[ring.border[column]];
-
     for (uint32_t row = 1; row < skin_rows; ++row) {
-      const float x = float(row) / float(skin_rows - 1);
-      const float s = 1 - std::pow(1 - x, 1.25f);
-      out[ring_vertex(ring, column, row)] = skin_point(start + s * (border - start), e, lip);
+      const float s = 1 - std::pow(1 - float(row) / float(skin_rows - 1), 1.25f);
+      aims_[ring_vertex(ring, column, row)] = start + s * (border - start);
+    }
+    for (uint32_t k = 0; k < lip_rows; ++k)
+      aims_[ring_vertex(ring, column, skin_rows + k)] =
+          border + 0.5f * (1 - std::cos(lip_angle(k))) * (contact - border);
+  }
+}
+
+void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm::vec3>& out) const {
+  for (uint32_t column = 0; column < ring.border.size(); ++column) {
+    const Seam seam = ring_seam(ring, column);
+    const float across = across_mouth(seam.turn);
+    for (uint32_t row = 1; row < skin_rows; ++row) {
+      const uint32_t v = ring_vertex(ring, column, row);
+      out[v] = posed_vertex(v, e);
     }
     for (uint32_t k = 0; k < lip_rows; ++k) {
-      const float angle = pi * float(k + 1) / float(lip_rows);
-      const float s = 0.5f * (1 - std::cos(angle));
-      const float lift = lip_fullness(across, upper) * std::sin(angle);
-      out[ring_vertex(ring, column, skin_rows + k)] =
-          skin_point(border + s * (contact - border), e, lip, lift);
+      const uint32_t v = ring_vertex(ring, column, skin_rows + k);
+      out[v] = posed_vertex(v, e, lip_fullness(across, seam.upper) * std::sin(lip_angle(k)));
     }
     // Behind the lips: posed with the jaw shut, then turned with it.
-    const float share = jaw_share(contact, lip);
-    const glm::vec3 meet = turn_jaw(out[ring_vertex(ring, column, skin_rows + lip_rows - 1)], -share, e);
+    const uint32_t last = ring_vertex(ring, column, skin_rows + lip_rows - 1);
+    const float share = jaw_share(aims_[last]), up = seam.upper ? 1.0f : -1.0f;
+    const glm::vec3 meet = turn_jaw(out[last], -share, e);
     for (uint32_t k = 0; k < cavity_rows; ++k) {
       const float d = float(k + 1) / float(cavity_rows);
       const float spread = 0.17f * (1 - std::pow(1 - d, 4.0f)) * (1 - 0.35f * d);
       glm::vec3 p = meet;
       p.x *= 1 - 0.25f * d * d;
-      p.y += up * spread * std::sqrt(round);
+      p.y += up * spread * std::sqrt(roundness(across));
       p.z = glm::mix(meet.z, 0.10f, d);
       out[ring_vertex(ring, column, skin_rows + lip_rows + k)] = turn_jaw(p, glm::mix(share, 0.5f, d * d), e);
     }
@@ -72,7 +88,7 @@ void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm
 }
 
 void HeadSkin::color_mouth(const Ring& ring, std::vector<glm::vec4>& out) const {
-  const glm::vec3 lip(0.62f, 0.19f, 0.16f), flesh(0.45f, 0.09f, 0.08f), throat(0.06f, 0.008f, 0.008f);
+  const glm::vec3 lip(0.66f, 0.23f, 0.18f), flesh(0.55f, 0.13f, 0.11f), throat(0.12f, 0.015f, 0.015f);
   const uint32_t around = uint32_t(ring.border.size());
   for (uint32_t column = 0; column < around; ++column)
     for (uint32_t row = 1; row < ring.rows; ++row) {
@@ -83,7 +99,7 @@ void HeadSkin::color_mouth(const Ring& ring, std::vector<glm::vec4>& out) const 
       glm::vec3 color = glm::mix(skin, lip, red);
       const float deep = (float(row) - float(skin_rows + lip_rows)) / cavity_rows;
       color = glm::mix(color, flesh, glm::smoothstep(-0.15f, 0.15f, deep));
-      color = glm::mix(color, throat, glm::smoothstep(0.25f, 0.9f, deep));
+      color = glm::mix(color, throat, glm::smoothstep(0.35f, 1.0f, deep));
       out[ring_vertex(ring, column, row)] = glm::vec4(color, 1);
     }
   for (int y = ring.lo.y + 1; y < ring.hi.y; ++y)

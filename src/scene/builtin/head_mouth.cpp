@@ -21,8 +21,8 @@ struct Arch {
   float low, high;                // y
   int teeth;
 };
-constexpr Arch upper_teeth = {0.235f, 0.735f, 0.36f, -0.575f, -0.42f, 10};
-constexpr Arch lower_teeth = {0.215f, 0.695f, 0.36f, -0.700f, -0.578f, 10};
+constexpr Arch upper_teeth = {0.255f, 0.775f, 0.36f, -0.600f, -0.43f, 10};
+constexpr Arch lower_teeth = {0.230f, 0.715f, 0.36f, -0.710f, -0.590f, 10};
 
 glm::vec3 tooth_point(const Arch& arch, float along, float angle) {
   const float turn = (along - 0.5f) * pi;
@@ -43,7 +43,7 @@ glm::vec3 tooth_point(const Arch& arch, float along, float angle) {
 
 // The middle line of the tongue, from its root to its tip.
 glm::vec3 tongue_spine(float along, float out) {
-  const glm::vec3 in(0, -0.70f + 0.07f * bump(along - 0.45f), glm::mix(0.12f, 0.62f, along));
+  const glm::vec3 in(0, -0.66f + 0.07f * bump(along - 0.45f), glm::mix(0.12f, 0.655f, along));
   const float over = glm::smoothstep(0.45f, 1.0f, along);
   const glm::vec3 stretched(0, -0.63f + 0.135f * glm::smoothstep(0.0f, 0.55f, along) - 0.20f * over * over,
                             glm::mix(0.12f, 1.16f, along) - 0.06f * over * over);

@@ -18,6 +18,10 @@ void sculpt(Mesh& mesh, const Posing& posed);
 Mesh head_skin(uint32_t material);
 Mesh head_eyes(uint32_t material);
 Image iris_image();
+// White but for freckles over nose and cheeks; aims become texture coordinates, the back of the head
+// mirrored.
+Image freckle_image();
+glm::vec2 freckle_coordinates(Aim aim);
 Mesh head_ears(uint32_t material);
 Mesh head_brows(uint32_t material);
 Mesh head_teeth(uint32_t material);

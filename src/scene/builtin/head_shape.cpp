@@ -13,9 +13,9 @@ using glm::vec3;
 // Skull, jaw, cheeks, chin, muzzle, neck; p.x >= 0.
 float bones(vec3 p) {
   float d = ellipsoid_distance(p, {0, 0.30f, -0.10f}, {0.84f, 0.80f, 0.90f});
-  d = smooth_union(d, ellipsoid_distance(p, {0, -0.42f, 0.16f}, {0.60f, 0.52f, 0.60f}), 0.30f);
-  d = smooth_union(d, sphere_distance(p, {0.38f, -0.32f, 0.46f}, 0.33f), 0.22f);
-  d = smooth_union(d, sphere_distance(p, {0, -0.82f, 0.58f}, 0.17f), 0.24f);
+  d = smooth_union(d, ellipsoid_distance(p, {0, -0.46f, 0.14f}, {0.64f, 0.50f, 0.62f}), 0.30f);
+  d = smooth_union(d, sphere_distance(p, {0.40f, -0.26f, 0.46f}, 0.32f), 0.22f);
+  d = smooth_union(d, sphere_distance(p, {0, -0.80f, 0.56f}, 0.20f), 0.26f);
   d = smooth_union(d, ellipsoid_distance(p, {0, -0.50f, 0.58f}, {0.30f, 0.22f, 0.27f}), 0.18f);
   const float neck = capsule_distance(p, {0, -0.55f, -0.10f}, {0, -2.2f, -0.16f}, 0.34f, 0.38f);
   return smooth_union(d, neck, 0.20f);
@@ -31,7 +31,7 @@ float eye_region(float d, vec3 p) {
 
 float bridge(float d, vec3 p) {
   if (sphere_distance(p, {0, -0.05f, 0.85f}, 0.45f) > 0) return d;
-  return smooth_union(d, capsule_distance(p, {0, 0.12f, 0.71f}, {0, -0.17f, 0.86f}, 0.05f, 0.065f), 0.14f);
+  return smooth_union(d, capsule_distance(p, {0, 0.12f, 0.71f}, {0, -0.17f, 0.875f}, 0.05f, 0.07f), 0.14f);
 }
 
 // Blows up the skin around `centre` like a balloon: forwards by `height`, and sideways by the share `spread`
@@ -39,13 +39,13 @@ float bridge(float d, vec3 p) {
 void inflate(vec3& p, glm::vec2 centre, glm::vec2 radius, float height, float spread) {
   const glm::vec2 offset = glm::vec2(p) - centre;
   const float b = bump(glm::length(offset / radius));
-  p += vec3(offset * (spread * b), height * b);
+  p += vec3(offset * (spread * b), height * b * (2 - b));
 }
 
 // Tip, wings and nostrils of the nose; p.x >= 0.
 vec3 nose_tip(vec3 p) {
   const vec3 flat = p;
-  inflate(p, {0, -0.195f}, {0.185f, 0.175f}, 0.17f, 0.30f);
+  inflate(p, {0, -0.195f}, {0.190f, 0.180f}, 0.125f, 0.34f);
   p.y -= 0.035f * bump(glm::length(glm::vec2(flat.x, flat.y + 0.20f) / glm::vec2(0.17f, 0.14f)));
   inflate(p, {0.110f, -0.25f}, {0.075f, 0.070f}, 0.035f, 0.25f);
   p.x +=

@@ -16,6 +16,7 @@ inline constexpr float lid_radius = 0.30f;
 // A direction from head_centre: azimuth from +Z towards +X, elevation towards +Y, radians.
 struct Aim {
   float azimuth = 0, elevation = 0;
+  bool operator==(const Aim&) const = default;
 };
 inline Aim operator+(Aim a, Aim b) {
   return {a.azimuth + b.azimuth, a.elevation + b.elevation};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/builtin/head_skin.h"
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 #include <span>
 
@@ -47,7 +49,7 @@ float wall_azimuth(float x, float z) {
 
 glm::vec3 skin_color(Aim rest) {
   const Aim aim{std::abs(rest.azimuth), rest.elevation};
-  glm::vec3 color(0.80f, 0.46f, 0.31f);
+  glm::vec3 color(0.82f, 0.44f, 0.28f);
   const glm::vec3 flush(0.78f, 0.26f, 0.18f);
   const float cheek = bump(aim, {0.50f, -0.26f}, {0.34f, 0.28f});
   const float nose = bump(aim, {0, -0.12f}, {0.17f, 0.20f});
@@ -58,14 +60,21 @@ glm::vec3 skin_color(Aim rest) {
 }
 
 HeadSkin::HeadSkin() : lattice_(cells) {
-  for (const glm::ivec3& point : lattice_.points()) {
-    aims_.push_back(lattice_aim(point));
-    points_.push_back(head_point(aims_.back()));
-  }
+  for (const glm::ivec3& point : lattice_.points()) aims_.push_back(lattice_aim(point));
   vertex_count_ = uint32_t(aims_.size());
   for (const BoxLattice::Face face : BoxLattice::faces)
     if (face != BoxLattice::Face::front) grids_.push_back(lattice_.chart(face));
   add_front();
+  aims_.resize(vertex_count_);
+  lay_lids(eyes_[0], -1);
+  lay_lids(eyes_[1], 1);
+  lay_lips(mouth_);
+  points_.resize(vertex_count_);
+  normals_.resize(vertex_count_);
+  tbb::parallel_for(0u, vertex_count_, [&](uint32_t v) {
+    points_[v] = head_point(aims_[v]);
+    normals_[v] = head_normal(points_[v]);
+  });
 }
 
 Aim HeadSkin::lattice_aim(glm::ivec3 point) const {
@@ -136,16 +145,33 @@ uint32_t HeadSkin::ring_vertex(const Ring& ring, uint32_t column, uint32_t row) 
   return row == 0 ? ring.border[column] : ring.first_vertex + (row - 1) * around + column;
 }
 
+HeadSkin::Seam HeadSkin::ring_seam(const Ring& ring, uint32_t column) const {
+  const uint32_t around = uint32_t(ring.border.size()), half = around / 2;
+  // Columns begin at a corner of the hole; the corner of the slit lies half its height further back.
+  const uint32_t u = (column + uint32_t(ring.hi.y - ring.lo.y) / 2) % around;
+  const bool upper = u > half;
+  return {float(upper ? around - u : u) / float(half), upper};
+}
+
+glm::vec3 HeadSkin::face_point(uint32_t vertex, Aim aim) const {
+  return aim == aims_[vertex] ? points_[vertex] : head_point(aim);
+}
+
+glm::vec3 HeadSkin::face_normal(uint32_t vertex, Aim aim, glm::vec3 point) const {
+  return aim == aims_[vertex] ? normals_[vertex] : head_normal(point);
+}
+
+glm::vec3 HeadSkin::posed_vertex(uint32_t vertex, const Expression& e, float lift) const {
+  const Aim rest = aims_[vertex], aim = rest + skin_slide(rest, e);
+  glm::vec3 p = face_point(vertex, aim);
+  const float swell = skin_swell(rest, e) + lift;
+  if (swell != 0) p += swell * face_normal(vertex, aim, p);
+  return turn_jaw(p, jaw_share(rest), e);
+}
+
 std::vector<glm::vec3> HeadSkin::posed(const Expression& e) const {
   std::vector<glm::vec3> out(vertex_count_);
-  for (size_t v = 0; v < points_.size(); ++v) {
-    const Aim slide = skin_slide(aims_[v], e);
-    out[v] = points_[v];
-    if (slide.azimuth != 0 || slide.elevation != 0) out[v] = head_point(aims_[v] + slide);
-    const float swell = skin_swell(aims_[v], e);
-    if (swell != 0) out[v] += swell * head_normal(out[v]);
-    out[v] = turn_jaw(out[v], jaw_share(aims_[v], 0), e);
-  }
+  for (uint32_t v = 0; v < lattice_.points().size(); ++v) out[v] = posed_vertex(v, e);
   pose_eye(eyes_[0], -1, e, out);
   pose_eye(eyes_[1], 1, e, out);
   pose_mouth(mouth_, e, out);
@@ -193,6 +219,7 @@ Mesh head_skin(uint32_t material) {
   add_part(mesh, 0, material);
   mesh.colors = skin.colors();
   sculpt(mesh, [&](const Expression& e) { return skin.posed(e); });
+  for (const glm::vec3& p : mesh.positions) mesh.texcoords[0].push_back(snap(freckle_coordinates(aim_at(p))));
   return mesh;
 }
 

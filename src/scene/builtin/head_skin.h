@@ -35,6 +35,18 @@ class HeadSkin {
   void add_front();
   Ring add_ring(glm::ivec2 lo, glm::ivec2 hi, uint32_t rows);
   uint32_t ring_vertex(const Ring& ring, uint32_t column, uint32_t row) const;
+  // Where a column meets the slit of its opening: 0 at the right corner, 1 at the left, on the lower or upper
+  // side.
+  struct Seam {
+    float turn;
+    bool upper;
+  };
+  Seam ring_seam(const Ring& ring, uint32_t column) const;
+  void lay_lids(const Ring& ring, float side);
+  void lay_lips(const Ring& ring);
+  glm::vec3 face_point(uint32_t vertex, Aim aim) const;
+  glm::vec3 face_normal(uint32_t vertex, Aim aim, glm::vec3 point) const;
+  glm::vec3 posed_vertex(uint32_t vertex, const Expression& expression, float lift = 0) const;
   void pose_eye(const Ring& ring, float side, const Expression& expression,
                 std::vector<glm::vec3>& out) const;
   void pose_mouth(const Ring& ring, const Expression& expression, std::vector<glm::vec3>& out) const;
@@ -44,9 +56,11 @@ class HeadSkin {
 
   BoxLattice lattice_;
   std::vector<Grid> grids_;
-  std::vector<Aim> aims_;          // of the lattice points
-  std::vector<glm::vec3> points_;  // theirs at rest
-  std::array<Ring, 2> eyes_;       // right (-X), left
+  // Of every vertex on the face, lattice points first: what it rests at. Casting rays is most of the work,
+  // and most of the face rests in most expressions.
+  std::vector<Aim> aims_;
+  std::vector<glm::vec3> points_, normals_;
+  std::array<Ring, 2> eyes_;  // right (-X), left
   Ring mouth_;
   uint32_t vertex_count_ = 0;
 };

@@ -63,7 +63,7 @@ Mesh floor_mesh(int cells, float half_width, uint32_t material) {
 void add_squash(Mesh& mesh) {
   std::vector<glm::vec3> posed = mesh.positions;
   for (glm::vec3& p : posed) p = snap(glm::vec3(1.3f * p.x, 0.55f * p.y - 0.45f, 1.3f * p.z));
-  add_target(mesh, "squash", posed);
+  add_target(mesh, morph_target(mesh, "squash", posed));
 }
 
 Image checker() {

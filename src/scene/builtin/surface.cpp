@@ -135,11 +135,11 @@ std::vector<glm::vec3> snapped_normals(const Mesh& mesh, const std::vector<glm::
   return normals;
 }
 
-void add_target(Mesh& mesh, const std::string& name, const std::vector<glm::vec3>& posed) {
-  if (posed == mesh.positions) return;
-  const std::vector<glm::vec3> normals = snapped_normals(mesh, posed);
+MorphTarget morph_target(const Mesh& mesh, const std::string& name, const std::vector<glm::vec3>& posed) {
   MorphTarget target;
   target.name = name;
+  if (posed == mesh.positions) return target;
+  const std::vector<glm::vec3> normals = snapped_normals(mesh, posed);
   for (uint32_t v = 0; v < posed.size(); ++v) {
     const glm::vec3 move = posed[v] - mesh.positions[v];
     const glm::vec3 turn = normals[v] - mesh.normals[v];
@@ -148,6 +148,11 @@ void add_target(Mesh& mesh, const std::string& name, const std::vector<glm::vec3
     target.positions.push_back(move);
     target.normals.push_back(turn);
   }
+  return target;
+}
+
+void add_target(Mesh& mesh, MorphTarget target) {
+  if (target.vertices.empty()) return;
   mesh.targets.push_back(std::move(target));
   mesh.weights.push_back(0);
 }

@@ -77,8 +77,10 @@ void add_grid(Mesh& mesh, Grid grid);
 void add_part(Mesh& mesh, uint32_t first_triangle, uint32_t material);
 // Smooth unit normals, rounded.
 std::vector<glm::vec3> snapped_normals(const Mesh& mesh, const std::vector<glm::vec3>& positions);
-// Adds the blendshape that takes the mesh to `posed`, normals included; nothing where no vertex moves.
-// Normals of the mesh must be set.
-void add_target(Mesh& mesh, const std::string& name, const std::vector<glm::vec3>& posed);
+// The blendshape that takes the mesh to `posed`, normals included; empty where no vertex moves. Normals of
+// the mesh must be set.
+MorphTarget morph_target(const Mesh& mesh, const std::string& name, const std::vector<glm::vec3>& posed);
+// Adds it, at rest, unless it is empty.
+void add_target(Mesh& mesh, MorphTarget target);
 
 }  // namespace lodestone::scene::builtin

@@ -82,7 +82,7 @@ Mesh terrain_mesh() {
 void add_wave(Mesh& mesh, const std::string& name, float phase) {
   std::vector<glm::vec3> posed = mesh.positions;
   for (glm::vec3& p : posed) p = snap(p + glm::vec3(0, 0.06f * std::sin(1.8f * p.x + 0.9f * p.z + phase), 0));
-  add_target(mesh, name, posed);
+  add_target(mesh, morph_target(mesh, name, posed));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Mesh tiny_mesh(uint32_t flat_material, uint32_t bent_material) {
   std::vector<glm::vec3> posed = mesh.positions;
   posed[1].z = posed[4].z = 0.5f;  // folds the strip along its middle
   posed[9].z = 0.5f;
-  add_target(mesh, "fold", posed);
+  add_target(mesh, morph_target(mesh, "fold", posed));
   return mesh;
 }
 
