@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "lodestone/image/colour.h"
 #include "lodestone/image/colour_map.h"
 #include "lodestone/image/compare.h"
 #include "lodestone/image/flip.h"
@@ -56,23 +55,18 @@ float distance(float a, float b) {
   return std::abs(a - b);
 }
 
-float display_distance(const Image& a, float value_a, const Image& b, float value_b) {
-  if (!std::isfinite(distance(value_a, value_b))) return std::numeric_limits<float>::infinity();
-  const auto displayed = [](const Image& image, float value) {
-    const float clamped = clamp_unit(value);
-    return image.linear ? srgb_encode(clamped) : clamped;
-  };
-  return std::abs(displayed(a, value_a) - displayed(b, value_b));
-}
-
 // Per channel R G B, one array behind the other.
 std::vector<float> colour_distances(const Image& a, const Image& b) {
+  const Image shown_a = for_display(a), shown_b = for_display(b);
   std::vector<float> distances;
-  distances.reserve(3 * a.pixels());
+  distances.reserve(colours.size() * a.pixels());
   for (const char* name : colours) {
-    const std::vector<float>&values_a = a.find(name)->values, &values_b = b.find(name)->values;
-    for (size_t i = 0; i < values_a.size(); ++i)
-      distances.push_back(display_distance(a, values_a[i], b, values_b[i]));
+    const std::vector<float>&raw_a = a.find(name)->values, &raw_b = b.find(name)->values;
+    const std::vector<float>&encoded_a = shown_a.find(name)->values, &encoded_b = shown_b.find(name)->values;
+    for (size_t i = 0; i < raw_a.size(); ++i) {
+      const float raw = distance(raw_a[i], raw_b[i]);
+      distances.push_back(std::isfinite(raw) ? std::abs(encoded_a[i] - encoded_b[i]) : raw);
+    }
   }
   return distances;
 }

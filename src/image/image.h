@@ -54,6 +54,10 @@ void write(const std::filesystem::path& path, const Image& image);
 // than max_samples samples.
 Image read(const std::filesystem::path& path);
 
+// R G B for a PNG: encoded by the sRGB curve where they are linear, clamped to 0..1, NaN as 0. Of an image
+// without R G B its first channel as grey, from the smallest to the largest finite sample; ids so too.
+Image for_display(const Image& image);
+
 // Tiles of equal size in rows of `columns`, their R G B only, a label above each: printable ASCII ('?' stands
 // for the rest), in as large letters as let all of it fit, cut where the smallest do not. Encoded as the
 // tiles are. Throws std::invalid_argument where there are no tiles, not as many labels, sizes differ or a

@@ -72,6 +72,32 @@ TEST(DifferenceImage, RefusesOtherSizes) {
   EXPECT_THROW(difference_image(plain(2, 2, 0, 0, 0), plain(2, 3, 0, 0, 0)), std::invalid_argument);
 }
 
+TEST(ForDisplay, EncodesLinearLightAndLeavesTheRest) {
+  Image linear = plain(2, 1, 0.5f, 4, -1);
+  sample(linear, "R", 1, 0) = std::nanf("");
+  const Image shown = for_display(linear);
+  EXPECT_FALSE(shown.linear);
+  EXPECT_NEAR(shown.find("R")->values[0], 0.735357f, 1e-6);  // 1.055 x 0.5^(1 / 2.4) - 0.055
+  EXPECT_EQ(shown.find("R")->values[1], 0);
+  EXPECT_NEAR(shown.find("G")->values[0], 1, 1e-6);
+  EXPECT_EQ(shown.find("B")->values[0], 0);
+  EXPECT_EQ(for_display(encoded(linear)).find("R")->values[0], 0.5f);
+}
+
+TEST(ForDisplay, StretchesAChannelWithoutColours) {
+  Image depth;
+  depth.width = 4;
+  depth.height = 1;
+  depth.add("depth.Z").values = {2, 4, 3, std::numeric_limits<float>::infinity()};
+  const std::vector<float> expected = {0, 1, 0.5f, 1};
+  for (const char* name : {"R", "G", "B"}) EXPECT_EQ(for_display(depth).find(name)->values, expected);
+  Image ids;
+  ids.width = 2;
+  ids.height = 1;
+  ids.add_ids("id.mesh").ids = {7, 7};
+  EXPECT_EQ(for_display(ids).find("G")->values, std::vector<float>(2));
+}
+
 TEST(ColourMap, LightnessRisesAllTheWay) {
   float before = -1;
   for (int i = 0; i <= 256; ++i) {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+namespace lodestone::app {
+
+// Adds `lodestone compare` to the parser; where it is what the user wants, `run` becomes what it does.
+void add_compare_command(CLI::App& app, std::function<int()>& run);
+
+}  // namespace lodestone::app
