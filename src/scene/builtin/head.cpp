@@ -81,7 +81,7 @@ Scene make_head() {
 
   Camera camera;
   camera.name = "Portrait";
-  camera.yfov = 0.44f;
+  camera.yfov = 0.41f;
   add_camera(scene, camera, {2.2f, 0.30f, 7.4f}, {0, 0.0f, 0});
   light_portrait(scene);
   scene.animations.push_back(expressions_clip(scene, pivot));

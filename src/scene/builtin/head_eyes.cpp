@@ -78,7 +78,7 @@ Mesh head_eyes(uint32_t material) {
       directions.push_back(d);
       const float angle = std::acos(glm::clamp(d.z, -1.0f, 1.0f)) / pi;
       const float flat = std::sqrt(d.x * d.x + d.y * d.y);
-      const glm::vec2 p = flat > 0 ? glm::vec2(d.x, -d.y) / flat * angle : glm::vec2(0);
+      const glm::vec2 p = flat > 0 ? glm::vec2(d.x, -d.y) / flat * angle : glm::vec2(angle, 0);
       mesh.texcoords[0].push_back(snap(0.5f + 0.5f * p));
     }
   }

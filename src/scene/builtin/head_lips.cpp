@@ -76,12 +76,13 @@ void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm
     const float share = jaw_share(aims_[last]), up = seam.upper ? 1.0f : -1.0f;
     const glm::vec3 meet = turn_jaw(out[last], -share, e);
     for (uint32_t k = 0; k < cavity_rows; ++k) {
-      const float d = float(k + 1) / float(cavity_rows);
+      const float d = float(k) / float(cavity_rows - 1);
       const float spread = 0.17f * (1 - std::pow(1 - d, 4.0f)) * (1 - 0.35f * d);
-      glm::vec3 p = meet;
+      // First both lips step up, so that one cannot look in between them; then they part.
+      glm::vec3 p = meet + (1 - d) * glm::vec3(0, 0.010f * roundness(across), -0.02f);
       p.x *= 1 - 0.25f * d * d;
       p.y += up * spread * std::sqrt(roundness(across));
-      p.z = glm::mix(meet.z, 0.10f, d);
+      p.z = glm::mix(p.z, 0.10f, d);
       out[ring_vertex(ring, column, skin_rows + lip_rows + k)] = turn_jaw(p, glm::mix(share, 0.5f, d * d), e);
     }
   }

@@ -21,8 +21,8 @@ struct Arch {
   float low, high;                // y
   int teeth;
 };
-constexpr Arch upper_teeth = {0.255f, 0.775f, 0.36f, -0.600f, -0.43f, 10};
-constexpr Arch lower_teeth = {0.230f, 0.715f, 0.36f, -0.710f, -0.590f, 10};
+constexpr Arch upper_teeth = {0.285f, 0.775f, 0.34f, -0.600f, -0.43f, 10};
+constexpr Arch lower_teeth = {0.258f, 0.715f, 0.34f, -0.710f, -0.590f, 10};
 
 glm::vec3 tooth_point(const Arch& arch, float along, float angle) {
   const float turn = (along - 0.5f) * pi;
