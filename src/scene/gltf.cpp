@@ -95,6 +95,7 @@ Scene load_gltf(const std::filesystem::path& path) {
   scene.lights = convert_lights(reader);
   const std::vector<uint32_t> node_of = convert_nodes(reader, scene);
   convert_animations(reader, node_of, scene);
+  validate(scene);
   return scene;
 }
 
