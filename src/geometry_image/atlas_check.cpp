@@ -105,13 +105,13 @@ const char* maps_fault(const Atlas& atlas) {
 
 std::string find_fault(const Atlas& atlas) {
   if (atlas.charts.empty()) return "no chart";
-  if (atlas.kind > AtlasKind::exact) return "an unknown kind of atlas";
   if (atlas.report.texels != atlas.texel_map.size() || atlas.report.slots != atlas.leaf_map.size()) {
     return "a report of another atlas";
   }
   if (atlas.depth != tree_depth(atlas.leaf_map.size())) return "a hierarchy of the wrong depth";
   if (const char* fault = charts_fault(atlas)) return fault;
   if (const char* fault = maps_fault(atlas)) return fault;
+  if (atlas.kind != kind_of(atlas.charts)) return "charts of another kind than it says";
   return {};
 }
 

@@ -71,12 +71,6 @@ std::vector<glm::vec3> chart_centers(const scene::Scene& scene, const scene::Ass
   return centers;
 }
 
-AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts) {
-  const auto is_grid = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_grid; };
-  if (std::all_of(charts.begin(), charts.end(), is_grid)) return AtlasKind::grid;
-  return std::any_of(charts.begin(), charts.end(), is_grid) ? AtlasKind::automatic : AtlasKind::exact;
-}
-
 // Welds and surveys; what these need is freed before the maps are made.
 std::vector<layout::ChartRecord> chart_surface(const scene::Scene& scene, const scene::Assembly& assembly,
                                                AtlasKind kind, AtlasReport& report) {

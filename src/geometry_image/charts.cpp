@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/charts.h"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 
@@ -132,6 +133,12 @@ std::vector<layout::ChartRecord> make_charts(const scene::Scene& scene, const sc
     next += width * height;
   });
   return charts;
+}
+
+AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts) {
+  const auto is_grid = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_grid; };
+  if (std::all_of(charts.begin(), charts.end(), is_grid)) return AtlasKind::grid;
+  return std::any_of(charts.begin(), charts.end(), is_grid) ? AtlasKind::automatic : AtlasKind::exact;
 }
 
 glm::uvec4 texel_entry(const layout::ChartRecord& chart, uint32_t chart_index, uint32_t x, uint32_t y) {

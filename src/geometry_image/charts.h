@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "lodestone/geometry_image/atlas.h"
 #include "lodestone/geometry_image/triangle_survey.h"
 #include "lodestone/layout/atlas.h"
 #include "lodestone/scene/assembly.h"
@@ -31,6 +32,9 @@ inline uint64_t quad_count(const layout::ChartRecord& chart) {
 inline uint64_t triangle_count(const layout::ChartRecord& chart) {
   return chart.kind == layout::chart_exact ? 1 : 2 * quad_count(chart);
 }
+
+// What the charts are: all grid, all exact, or automatic: some of each.
+AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts);
 
 // Entry of the texel map for sample (x, y) of a chart.
 glm::uvec4 texel_entry(const layout::ChartRecord& chart, uint32_t chart_index, uint32_t x, uint32_t y);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Small atlases for the tests of baked files.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "meshes.h"
+
+namespace lodestone::geometry_image::test {
+
+// A grid chart, two exact ones, and notes: one triangle is dropped and edges are open.
+inline scene::Scene sample_scene() {
+  return scene_of({height_field(4, 3),
+                   mesh_of({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}, {{0, 1, 2}, {3, 2, 1}, {0, 0, 3}})});
+}
+
+inline void expect_equal(const Atlas& a, const Atlas& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.depth, b.depth);
+  ASSERT_EQ(a.charts.size(), b.charts.size());
+  for (size_t i = 0; i < a.charts.size(); ++i) {
+    const layout::ChartRecord &x = a.charts[i], &y = b.charts[i];
+    EXPECT_TRUE(x.first_texel == y.first_texel && x.width == y.width && x.height == y.height &&
+                x.kind == y.kind && x.first_triangle == y.first_triangle && x.first_slot == y.first_slot &&
+                x.slot_count == y.slot_count && x.pad == y.pad)
+        << i;
+  }
+  EXPECT_EQ(a.texel_map, b.texel_map);
+  EXPECT_EQ(a.leaf_map, b.leaf_map);
+  EXPECT_EQ(a.report.triangles, b.report.triangles);
+  EXPECT_EQ(a.report.quads, b.report.quads);
+  EXPECT_EQ(a.report.texels, b.report.texels);
+  EXPECT_EQ(a.report.slots, b.report.slots);
+  EXPECT_EQ(a.report.degenerate_triangles, b.report.degenerate_triangles);
+  EXPECT_EQ(a.report.duplicate_triangles, b.report.duplicate_triangles);
+  EXPECT_EQ(a.report.non_manifold_edges, b.report.non_manifold_edges);
+  EXPECT_EQ(a.report.boundary_edges, b.report.boundary_edges);
+  EXPECT_EQ(a.report.welded_vertices, b.report.welded_vertices);
+  EXPECT_EQ(a.report.notes, b.report.notes);
+}
+
+// A folder of its own for every test, removed after it.
+class FolderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() / (std::string("lodestone-") + test->test_suite_name() +
+                                                        "-" + test->name() + "-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace lodestone::geometry_image::test

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/geometry_image/slots.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "expect_error.h"
+#include "lodestone/geometry_image/quad_order.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+using test::expect_error;
+
+layout::ChartRecord grid_chart(uint32_t quads_x, uint32_t quads_y) {
+  return {0, quads_x + 1, quads_y + 1, layout::chart_grid, 0, 0, 0, 0};
+}
+
+TEST(QuadOrder, GivesEveryQuadASlotOfItsOwn) {
+  for (const uint32_t width : {1u, 2u, 3u, 5u, 8u, 17u, 64u, 100u}) {
+    for (const uint32_t height : {1u, 2u, 4u, 7u, 33u, 64u}) {
+      const layout::ChartRecord chart = grid_chart(width, height);
+      const QuadOrder order(chart);
+      const uint64_t slots = QuadOrder::block_slots(chart);
+      std::vector<bool> taken(slots, false);
+      for (uint32_t y = 0; y < height; ++y) {
+        for (uint32_t x = 0; x < width; ++x) {
+          const uint32_t slot = order.slot(x, y);
+          ASSERT_LT(slot, slots);
+          ASSERT_FALSE(taken[slot]);
+          taken[slot] = true;
+          const QuadOrder::Quad quad = order.quad(slot);
+          ASSERT_TRUE(quad.exists);
+          ASSERT_EQ(glm::uvec2(quad.x, quad.y), glm::uvec2(x, y));
+        }
+      }
+      for (uint32_t slot = 0; slot < slots; ++slot) ASSERT_EQ(order.quad(slot).exists, taken[slot]);
+    }
+  }
+}
+
+TEST(QuadOrder, IsMortonOrderOnASquare) {
+  const QuadOrder order(grid_chart(4, 4));
+  const uint32_t expected[4][4] = {{0, 1, 4, 5}, {2, 3, 6, 7}, {8, 9, 12, 13}, {10, 11, 14, 15}};  // [y][x]
+  for (uint32_t y = 0; y < 4; ++y) {
+    for (uint32_t x = 0; x < 4; ++x) EXPECT_EQ(order.slot(x, y), expected[y][x]);
+  }
+}
+
+TEST(QuadOrder, PutsTheSquaresOfALongChartInARow) {
+  EXPECT_EQ(QuadOrder(grid_chart(8, 2)).slot(5, 1), 4 * 2 + 2 + 1u);
+  EXPECT_EQ(QuadOrder(grid_chart(2, 8)).slot(1, 5), 4 * 2 + 2 + 1u);
+  EXPECT_EQ(QuadOrder(grid_chart(16, 1)).slot(11, 0), 11u);
+}
+
+TEST(QuadOrder, WastesLittleOnThinCharts) {
+  for (const auto& [width, height] : {std::pair(1000u, 3u), std::pair(3u, 1000u), std::pair(5000u, 1u)}) {
+    EXPECT_LT(double(QuadOrder::block_slots(grid_chart(width, height))), 3.3 * width * height);
+  }
+  EXPECT_EQ(QuadOrder::block_slots(grid_chart(1000, 3)), 4096u);  // 1.4 slots a quad
+  EXPECT_EQ(QuadOrder::block_slots(grid_chart(4095, 4095)), uint64_t(1) << 24);
+  EXPECT_EQ(QuadOrder::block_slots(grid_chart(1, 1)), 1u);
+}
+
+TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
+  std::vector<layout::ChartRecord> charts;
+  for (uint32_t i = 0; i < 40; ++i) charts.push_back(grid_chart(1 + (i * 7) % 13, 1 + (i * 5) % 9));
+  const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
+  const uint64_t slots = assign_slots(charts, centers, ChartOrder::median, "test");
+  std::vector<bool> taken(slots, false);
+  for (const layout::ChartRecord& chart : charts) {
+    EXPECT_EQ(chart.slot_count, QuadOrder::block_slots(chart));
+    EXPECT_EQ(chart.first_slot % chart.slot_count, 0u);
+    ASSERT_LE(chart.first_slot + chart.slot_count, slots);
+    for (uint32_t s = 0; s < chart.slot_count; ++s) {
+      EXPECT_FALSE(taken[chart.first_slot + s]);
+      taken[chart.first_slot + s] = true;
+    }
+    for (const layout::ChartRecord& other : charts) {
+      EXPECT_TRUE(other.slot_count <= chart.slot_count || other.first_slot < chart.first_slot);
+    }
+  }
+  EXPECT_EQ(std::count(taken.begin(), taken.end(), false), 0);
+}
+
+TEST(Slots, EndWhereTheDeepestTreeEnds) {
+  std::vector<layout::ChartRecord> charts = {grid_chart(1u << 14, 1u << 14)};
+  EXPECT_EQ(assign_slots(charts, {}, ChartOrder::median, "test"), uint64_t(1) << 28);
+  EXPECT_EQ(tree_depth(uint64_t(1) << 28), layout::max_depth);
+  charts.push_back(grid_chart(1, 1));
+  expect_error(
+      [&] {
+        assign_slots(charts, {glm::vec3(0), glm::vec3(1)}, ChartOrder::median, "test");
+      },
+      ExitCode::bad_input, "test", "268435457 leaf slots for 2 charts, and 268435456 is the most");
+  charts = {grid_chart((1u << 14) + 1, 4)};
+  EXPECT_EQ(assign_slots(charts, {}, ChartOrder::median, "test"), uint64_t(1) << 18);
+}
+
+TEST(TreeDepth, IsTheLowestThatSuffices) {
+  EXPECT_EQ(tree_depth(1), 1u);
+  EXPECT_EQ(tree_depth(4), 1u);
+  EXPECT_EQ(tree_depth(5), 2u);
+  EXPECT_EQ(tree_depth(16), 2u);
+  EXPECT_EQ(tree_depth(17), 3u);
+}
+
+}  // namespace
+}  // namespace lodestone::geometry_image
