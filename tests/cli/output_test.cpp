@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Where pictures go, and what else is said.
+#include "process.h"
+
+namespace lodestone::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+class Output : public CommandLine {};
+
+TEST_F(Output, FrameNumbersFillTheRunOfMarks) {
+  ASSERT_EQ(run(tiny_render(place("a.###.png"), {"--frames", "8-10"})).code, 0);
+  EXPECT_EQ(files(), (Names{"a.008.png", "a.009.png", "a.010.png"}));
+}
+
+TEST_F(Output, LongNumbersKeepAllTheirDigits) {
+  ASSERT_EQ(run(tiny_render(place("#.exr"), {"--frames", "123"})).code, 0);
+  EXPECT_EQ(files(), (Names{"123.exr"}));
+}
+
+TEST_F(Output, OneFrameNeedsNoMark) {
+  ASSERT_EQ(run(tiny_render(place("one.png"), {"--frames", "7-7"})).code, 0);
+  EXPECT_EQ(files(), (Names{"one.png"}));
+}
+
+TEST_F(Output, MarksWithoutFramesAreFrameZero) {
+  ASSERT_EQ(run(tiny_render(place("b##.png"))).code, 0);
+  EXPECT_EQ(files(), (Names{"b00.png"}));
+}
+
+TEST_F(Output, MissingFoldersAreMade) {
+  ASSERT_EQ(run(tiny_render(place("deep/er/x.png"), {"--stats", place("other/s.json")})).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(place("deep/er/x.png")));
+  EXPECT_TRUE(std::filesystem::exists(place("other/s.json")));
+}
+
+TEST_F(Output, ExistingPicturesAreReplaced) {
+  write_text(place("x.png"), "old");
+  ASSERT_EQ(run(tiny_render(place("x.png"))).code, 0);
+  EXPECT_EQ(read_text(place("x.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(files(), (Names{"x.png"}));
+}
+
+TEST_F(Output, APlaceThatCannotBeWrittenIsRefusedBeforeRendering) {
+  write_text(place("file"), "");
+  // So much work that the test would run out of time if it were done first.
+  const std::vector<std::string> huge = {"--size", "8192x8192", "--spp", "65536"};
+  for (const char* option : {"-o", "--stats", "--profile"}) {
+    std::vector<std::string> arguments = {"render", "builtin:tiny", "--device", "cpu"};
+    arguments.insert(arguments.end(), huge.begin(), huge.end());
+    const bool picture = std::string(option) == "-o";
+    arguments.insert(arguments.end(), {"-o", picture ? place("file/x.png") : place("x.png")});
+    if (!picture) arguments.insert(arguments.end(), {option, place("file/x.json")});
+    const Result result = run(arguments, {.limit = std::chrono::seconds(20)});
+    EXPECT_EQ(result.code, 5) << option;
+    EXPECT_EQ(result.err.rfind("lodestone: error: " + place("file/x"), 0), 0u) << result.err;
+  }
+  EXPECT_EQ(files(), (Names{"file"}));
+}
+
+TEST_F(Output, AFolderIsNoPlaceForAPicture) {
+  std::filesystem::create_directory(place("x.png"));
+  EXPECT_EQ(run(tiny_render(place("x.png"))).code, 5);
+}
+
+TEST_F(Output, QuietSaysNothing) {
+  const Result result = run(tiny_render(place("x##.png"), {"--frames", "0-2", "-q"}));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Output, VerboseTellsDeviceSceneAndPasses) {
+  const Result result = run(tiny_render(place("x.png"), {"-v"}));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.out, "");
+  for (const char* part : {"CPU", "triangles", "rasterise", "wall ms", "share"})
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << "\n" << result.err;
+}
+
+TEST_F(Output, ProgressCanBeReadByAMachine) {
+  const Result result = run(tiny_render(place("x##.png"), {"--frames", "5-6", "--progress", "json"}));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err.rfind("{\"frame\":1,\"frames\":2,\"seconds_left\":", 0), 0u) << result.err;
+  EXPECT_NE(result.err.find("\n{\"frame\":2,\"frames\":2,\"seconds_left\":0.000}\n"), std::string::npos)
+      << result.err;
+}
+
+}  // namespace
+}  // namespace lodestone::cli

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// What is in the pictures.
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "lodestone/image/image.h"
+#include "process.h"
+
+namespace lodestone::cli {
+namespace {
+
+// Every sample of every channel, and the channels' names.
+void expect_equal_pixels(const image::Image& a, const image::Image& b) {
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    EXPECT_EQ(a.channels[i].name, b.channels[i].name);
+    EXPECT_TRUE(a.channels[i].ids == b.channels[i].ids) << a.channels[i].name;
+    EXPECT_TRUE(a.channels[i].values == b.channels[i].values) << a.channels[i].name;
+  }
+}
+
+bool equal_beauty(const image::Image& a, const image::Image& b) {
+  return a.find("R")->values == b.find("R")->values;
+}
+
+class Render : public CommandLine {
+ protected:
+  // Renders to an .exr of this name.
+  image::Image render(const std::string& name, const std::vector<std::string>& more = {}) const {
+    const Result result = run(tiny_render(place(name), more));
+    EXPECT_EQ(result.code, 0) << result.err;
+    return image::read(place(name));
+  }
+};
+
+const std::vector<std::string> every_aov = {"--aov", "depth,normal,albedo,uv,id,lod,steps", "--spp", "3"};
+
+TEST_F(Render, GivesTheChannelsOfTheContract) {
+  const image::Image image = render("x.exr", every_aov);
+  EXPECT_EQ(image.width, 24u);
+  EXPECT_EQ(image.height, 16u);
+  for (const char* name : {"R", "G", "B", "A", "depth.Z", "normal.X", "normal.Y", "normal.Z", "albedo.R",
+                           "albedo.G", "albedo.B", "uv.U", "uv.V", "lod.L", "steps.N"}) {
+    ASSERT_NE(image.find(name), nullptr) << name;
+    EXPECT_EQ(image.find(name)->values.size(), image.pixels()) << name;
+  }
+  for (const char* name : {"id.mesh", "id.triangle"}) {
+    ASSERT_NE(image.find(name), nullptr) << name;
+    EXPECT_EQ(image.find(name)->ids.size(), image.pixels()) << name;
+  }
+  EXPECT_EQ(image.channels.size(), 17u);
+}
+
+TEST_F(Render, SeesTheSceneAndWhatIsBesideIt) {
+  const image::Image image = render("x.exr", every_aov);
+  uint64_t hits = 0, misses = 0;
+  for (size_t i = 0; i < image.pixels(); ++i) {
+    const bool miss = image.find("id.mesh")->ids[i] == 0xffffffffu;
+    EXPECT_EQ(miss, std::isinf(image.find("depth.Z")->values[i])) << i;
+    ++(miss ? misses : hits);
+  }
+  EXPECT_GT(hits, 20u);
+  EXPECT_GT(misses, 20u);
+}
+
+TEST_F(Render, TwoRunsGiveEqualPixels) {
+  expect_equal_pixels(render("a.exr", every_aov), render("b.exr", every_aov));
+}
+
+TEST_F(Render, TheNumberOfThreadsChangesNothing) {
+  std::vector<std::string> one = every_aov, two = every_aov;
+  one.insert(one.end(), {"--threads", "1"});
+  two.insert(two.end(), {"--threads", "2"});
+  expect_equal_pixels(render("a.exr", one), render("b.exr", two));
+}
+
+TEST_F(Render, EveryTraversalGivesEqualPictures) {
+  const image::Image threaded = render("a.exr", {"--traversal", "threaded", "--aov", "depth,id"});
+  expect_equal_pixels(threaded, render("b.exr", {"--traversal", "octant", "--aov", "depth,id"}));
+  expect_equal_pixels(threaded, render("c.exr", {"--traversal", "wide", "--aov", "depth,id"}));
+}
+
+TEST_F(Render, TheSeedMovesTheSamples) {
+  EXPECT_FALSE(equal_beauty(render("a.exr", {"--spp", "2", "--seed", "1"}),
+                            render("b.exr", {"--spp", "2", "--seed", "2"})));
+}
+
+TEST_F(Render, TheClipMovesTheSceneAndLoops) {
+  const image::Image start = render("a.exr"), middle = render("b.exr", {"--frames", "12"}),
+                     looped = render("c.exr", {"--frames", "36"});
+  EXPECT_FALSE(equal_beauty(start, middle));
+  EXPECT_TRUE(equal_beauty(middle, looped));
+  EXPECT_EQ(looped.metadata.at("lodestone:time"), "0.5");
+  EXPECT_TRUE(equal_beauty(middle, render("d.exr", {"--time", "0.5"})));
+  EXPECT_TRUE(equal_beauty(middle, render("e.exr", {"--frames", "5", "--fps", "10"})));
+}
+
+TEST_F(Render, WeightsOverrideTheClip) {
+  EXPECT_TRUE(equal_beauty(render("a.exr", {"--time", "0.5"}), render("b.exr", {"--weights", "fold=0.5"})));
+}
+
+TEST_F(Render, TheCameraCanBeChosen) {
+  EXPECT_TRUE(equal_beauty(render("a.exr"), render("b.exr", {"--camera", "Front"})));
+  EXPECT_FALSE(equal_beauty(render("c.exr"), render("d.exr", {"--camera", "auto"})));
+}
+
+TEST_F(Render, SaysInTheFileHowItWasMade) {
+  const auto metadata = render("x.exr", {"--frames", "6", "--seed", "9", "--spp", "2"}).metadata;
+  const std::map<std::string, std::string> expected = {{"scene", "builtin:tiny"},
+                                                       {"tracer", "geometry-image"},
+                                                       {"traversal", "wide"},
+                                                       {"seed", "9"},
+                                                       {"spp", "2"},
+                                                       {"frame", "6"},
+                                                       {"time", "0.25"},
+                                                       {"camera", "Front"},
+                                                       {"clip", "Fold"}};
+  for (const auto& [name, value] : expected) EXPECT_EQ(metadata.at("lodestone:" + name), value) << name;
+  for (const char* name : {"version", "commit", "device", "driver"})
+    EXPECT_NE(metadata.at(std::string("lodestone:") + name), "");
+  const auto times = nlohmann::json::parse(metadata.at("lodestone:pass_ms"));
+  EXPECT_TRUE(times.contains("blend"));
+  EXPECT_GE(times["blend"].get<double>(), 0);
+}
+
+TEST_F(Render, OnlyTheTimesDifferBetweenTwoRuns) {
+  auto a = render("a.exr").metadata, b = render("b.exr").metadata;
+  a.erase("lodestone:pass_ms");
+  b.erase("lodestone:pass_ms");
+  EXPECT_EQ(a, b);
+}
+
+TEST_F(Render, APngHoldsTheDisplayPictureAndItsProvenance) {
+  const image::Image dark = render("a.png", {"--exposure", "-3"}),
+                     bright = render("b.png", {"--exposure", "1"});
+  EXPECT_EQ(dark.channels.size(), 4u);
+  double sums[2] = {0, 0};
+  for (size_t i = 0; i < dark.pixels(); ++i) {
+    sums[0] += dark.find("G")->values[i];
+    sums[1] += bright.find("G")->values[i];
+  }
+  EXPECT_LT(sums[0], sums[1]);
+  EXPECT_EQ(dark.metadata.at("lodestone:scene"), "builtin:tiny");
+  EXPECT_FALSE(equal_beauty(bright, render("c.png", {"--exposure", "1", "--view", "linear"})));
+}
+
+TEST_F(Render, AnExrIsLinearWhateverTheExposure) {
+  expect_equal_pixels(render("a.exr"), render("b.exr", {"--exposure", "3", "--view", "linear"}));
+}
+
+}  // namespace
+}  // namespace lodestone::cli

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Wrong usage ends with exit code 2, a bad file with 3, and one line that says what to do.
+#include <algorithm>
+
+#include "process.h"
+
+namespace lodestone::cli {
+namespace {
+
+struct Wrong {
+  const char* name;
+  std::vector<std::string> arguments;
+  std::vector<std::string> said;  // parts of the message
+};
+
+void PrintTo(const Wrong& wrong, std::ostream* stream) {
+  *stream << wrong.name;
+}
+
+void expect_one_error(const Result& result, int code, const std::vector<std::string>& said) {
+  EXPECT_EQ(result.code, code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err.rfind("lodestone: error: ", 0), 0u) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  for (const std::string& part : said)
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << "\n" << result.err;
+}
+
+class WrongUsage : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongUsage, IsRefusedWithAMessage) {
+  expect_one_error(run(GetParam().arguments), 2, GetParam().said);
+}
+
+// A render with one more option.
+std::vector<std::string> with(std::vector<std::string> more) {
+  std::vector<std::string> arguments = {"render", "builtin:tiny", "-o", "/tmp/lodestone-never-written.png"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+const Wrong wrong_values[] = {
+    {"NoCommand", {}, {"command"}},
+    {"UnknownCommand", {"rendr"}, {"rendr", "render", "devices"}},
+    {"UnknownOption", with({"--sice", "8x8"}), {"--sice", "render --help"}},
+    {"NoScene", {"render", "-o", "x.png"}, {"SCENE"}},
+    {"NoOutput", {"render", "builtin:tiny"}, {"--output"}},
+    {"UnknownBuiltin", {"render", "builtin:moon", "-o", "/tmp/x.png", "--device", "cpu"}, {"moon", "tiny"}},
+    {"OutputWithoutExtension", {"render", "builtin:tiny", "-o", "picture"}, {"picture", ".exr", ".png"}},
+    {"OutputOfAnotherKind", {"render", "builtin:tiny", "-o", "picture.jpg"}, {"picture.jpg", ".png"}},
+    {"SeveralRunsOfMarks", {"render", "builtin:tiny", "-o", "a##b##.png"}, {"several runs"}},
+    {"SequenceWithoutMark", with({"--frames", "0-3"}), {"####", "4 frames"}},
+    {"SizeWithoutCross", with({"--size", "512"}), {"--size", "512", "640x360"}},
+    {"SizeZero", with({"--size", "0x8"}), {"--size", "65536"}},
+    {"SizeTooLarge", with({"--size", "65537x1"}), {"--size", "65536"}},
+    {"SizeOfTooManyPixels", with({"--size", "65536x65536"}), {"--size", "pixels"}},
+    {"SizeWithSpace", with({"--size", "8x 8"}), {"--size"}},
+    {"SppZero", with({"--spp", "0"}), {"--spp", "65536"}},
+    {"SppNegative", with({"--spp", "-1"}), {"--spp"}},
+    {"SppFraction", with({"--spp", "1.5"}), {"--spp"}},
+    {"SppTooLarge", with({"--spp", "65537"}), {"--spp"}},
+    {"FramesBackwards", with({"--frames", "4-3"}), {"--frames", "4-3"}},
+    {"FramesNoNumber", with({"--frames", "a-b"}), {"--frames"}},
+    {"FpsZero", with({"--fps", "0"}), {"--fps"}},
+    {"FpsNotFinite", with({"--fps", "inf"}), {"--fps", "finite"}},
+    {"TimeNotANumber", with({"--time", "nan"}), {"--time", "finite"}},
+    {"TimeNegative", with({"--time", "-1"}), {"--time"}},
+    {"TimeForManyFrames",
+     {"render", "builtin:tiny", "-o", "/tmp/x##.png", "--time", "1", "--frames", "0-3"},
+     {"--time", "--frames"}},
+    {"ExposureOverflow", with({"--exposure", "1e999"}), {"--exposure"}},
+    {"UnknownTracer", with({"--tracer", "bvh"}), {"--tracer", "bvh", "geometry-image"}},
+    {"UnknownTraversal", with({"--traversal", "fast"}), {"--traversal", "threaded"}},
+    {"UnknownAtlas", with({"--atlas", "charts"}), {"--atlas", "exact"}},
+    {"ResolutionOfAnExactAtlas", with({"--resolution", "256"}), {"--resolution", "exact"}},
+    {"UnknownView", with({"--view", "aces"}), {"--view", "filmic"}},
+    {"UnknownAov",
+     {"render", "builtin:tiny", "-o", "x.exr", "--aov", "depth,color"},
+     {"--aov", "color", "albedo"}},
+    {"AovTwice", {"render", "builtin:tiny", "-o", "x.exr", "--aov", "depth,depth"}, {"--aov", "twice"}},
+    {"AovInPng", with({"--aov", "depth"}), {"--aov", ".exr"}},
+    {"UnknownProgress", with({"--progress", "bar"}), {"--progress", "json"}},
+    {"WeightWithoutValue", with({"--weights", "fold"}), {"--weights", "NAME=NUMBER"}},
+    {"WeightNotANumber", with({"--weights", "fold=x"}), {"--weights"}},
+    {"UnknownWeight", with({"--device", "cpu", "--weights", "smile=1"}), {"smile", "fold"}},
+    {"UnknownClip", with({"--device", "cpu", "--clip", "Run"}), {"Run", "Fold"}},
+    {"UnknownCamera", with({"--device", "cpu", "--camera", "Back"}), {"Back", "Front"}},
+    {"ThreadsZero", with({"--threads", "0"}), {"--threads"}},
+    {"QuietAndVerbose", with({"-q", "-v"}), {"--quiet"}},
+    {"BakeToAnotherExtension", {"bake", "builtin:tiny", "-o", "tiny.bin"}, {".lode"}},
+    {"FaultWithoutBit", {"parity", "builtin:tiny", "--fault", "bounds"}, {"--fault", "PASS:BIT"}},
+    {"RepeatsZero", {"bench", "builtin:tiny", "--repeats", "0"}, {"--repeats"}},
+    {"UnknownTraversalInList", {"bench", "builtin:tiny", "--traversal", "octant,fast"}, {"fast"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(OfValues, WrongUsage, testing::ValuesIn(wrong_values),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+class BadInput : public CommandLine {};
+
+TEST_F(BadInput, AMissingSceneIsNamed) {
+  expect_one_error(run({"render", place("none.obj"), "-o", place("x.png"), "--device", "cpu"}), 3,
+                   {place("none.obj") + ": no such file"});
+}
+
+TEST_F(BadInput, ATruncatedSceneIsNamed) {
+  write_text(place("cut.glb"), "glTF\2\0\0");
+  expect_one_error(run({"info", place("cut.glb")}), 3, {place("cut.glb") + ": "});
+}
+
+TEST_F(BadInput, AnEmptySceneIsNamed) {
+  write_text(place("empty.obj"), "");
+  expect_one_error(run({"info", place("empty.obj")}), 3, {place("empty.obj") + ": "});
+}
+
+TEST_F(BadInput, ADamagedBakedFileIsNamed) {
+  write_text(place("bad.lode"), "not a baked file");
+  expect_one_error(run({"info", place("bad.lode")}), 3, {place("bad.lode") + ": "});
+}
+
+TEST_F(BadInput, NoFileIsLeftBehind) {
+  run({"render", place("none.obj"), "-o", place("x.png"), "--device", "cpu"});
+  EXPECT_TRUE(files().empty());
+}
+
+TEST(NoDevice, IsExitCodeFourAndSaysWhatThereIs) {
+  const Result result =
+      run({"render", "builtin:tiny", "-o", "/tmp/lodestone-never-written.png", "--device", "no-such-device"});
+  expect_one_error(result, 4, {"no-such-device"});
+}
+
+}  // namespace
+}  // namespace lodestone::cli
