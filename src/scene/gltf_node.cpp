@@ -22,7 +22,7 @@ class NodeConverter {
     find_drawn();
     for (uint32_t from : order_) scene_.nodes.push_back(convert_node(from));
     for (size_t i = 0; i < model_.skins.size(); ++i) scene_.skins.push_back(convert_skin(i));
-    for (Node& node : scene_.nodes) match_skin(node);
+    for (size_t i = 0; i < order_.size(); ++i) match_skin(scene_.nodes[i], label(order_[i]));
     return std::move(node_of_);
   }
 
@@ -169,20 +169,19 @@ class NodeConverter {
   }
 
   // A Scene has a skin on a node exactly where its mesh has influences; glTF lets each stand alone.
-  void match_skin(Node& node) {
+  void match_skin(Node& node, const std::string& use) {
     if (node.mesh == none) return;
     const bool has_influences = !scene_.meshes[node.mesh].first_influence.empty();
     if (node.skin != none && !has_influences) {
-      log::warn_once(reader_.file() + " skin without joints",
-                     fmt::format("{}: node '{}': its mesh has no JOINTS_0; its skin is ignored",
-                                 reader_.file(), node.name.substr(0, 80)));
+      log::warn_once(
+          reader_.file() + " skin without joints",
+          fmt::format("{}: {}: its mesh has no JOINTS_0; its skin is ignored", reader_.file(), use));
       node.skin = none;
     } else if (node.skin == none && has_influences) {
       node.mesh = rigid_copy(node.mesh);
     }
     if (node.skin == none) return;
     const size_t joints = scene_.skins[node.skin].joints.size();
-    const std::string use = fmt::format("node '{}'", node.name.substr(0, 80));
     if (last_joint(node.mesh) >= joints) {
       fail_input(reader_.file(), "{}: its mesh follows joint {} of {}; export it again", use,
                  last_joint(node.mesh), joints);

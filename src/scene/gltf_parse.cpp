@@ -218,7 +218,7 @@ void run_tinygltf(ParseState& state) {
   const std::string serious = first_serious(errors);
   if (!parsed || !serious.empty()) {
     fail_input(gltf.file, "is not valid glTF ({}); check it with a glTF validator and export it again",
-               serious.empty() ? "no reason known" : serious);
+               serious.empty() ? "a required property is missing" : serious);
   }
 }
 
