@@ -65,7 +65,8 @@ class Storage {
   // The place of a transfer, checked against the end.
   std::byte* range(uint64_t offset, uint64_t size) const {
     if (offset > bytes_ || size > bytes_ - offset) {
-      fail(ExitCode::device, desc_.name, "transfer of {} bytes at {} leaves the buffer of {}", size, offset, bytes_);
+      fail(ExitCode::device, desc_.name, "transfer of {} bytes at {} leaves the buffer of {}", size, offset,
+           bytes_);
     }
     return reinterpret_cast<std::byte*>(words_) + offset;
   }
@@ -118,7 +119,8 @@ class CpuBackend final : public render::Backend {
     record.name = dispatch.pass->name;
     record.invocations = dispatch.invocations;
     record.counted = counting_;
-    CpuDispatch call{words, dispatch.push, dispatch.invocations, dispatch.constants, counting_, &record.counters};
+    CpuDispatch call{words,     dispatch.push,   dispatch.invocations, dispatch.constants,
+                     counting_, &record.counters};
     record.wall_start_ms = now_ms();
     find_pass(dispatch.pass->kernel)(call);
     record.wall_ms = now_ms() - record.wall_start_ms;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a pass is written in C++: a struct, templated over the memory probe, whose members are views of the buffers and
-// whose call operator is one invocation. The probe sees every access; the empty one costs nothing, the counting one
-// fills the counters.
+// How a pass is written in C++: a struct, templated over the memory probe, whose members are views of the
+// buffers and whose call operator is one invocation. The probe sees every access; the empty one costs
+// nothing, the counting one fills the counters.
 #pragma once
 
 #include <atomic>
@@ -79,11 +79,15 @@ struct Structs {
 inline glm::vec3 as_vec3(const glm::uvec4& bits) {
   return {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y), layout::uintBitsToFloat(bits.z)};
 }
-inline glm::vec4 as_vec4(const glm::uvec4& bits) { return {as_vec3(bits), layout::uintBitsToFloat(bits.w)}; }
+inline glm::vec4 as_vec4(const glm::uvec4& bits) {
+  return {as_vec3(bits), layout::uintBitsToFloat(bits.w)};
+}
 inline glm::uvec4 as_bits(const glm::vec3& v, uint32_t w) {
   return {layout::floatBitsToUint(v.x), layout::floatBitsToUint(v.y), layout::floatBitsToUint(v.z), w};
 }
-inline glm::uvec4 as_bits(const glm::vec4& v) { return as_bits(glm::vec3(v), layout::floatBitsToUint(v.w)); }
+inline glm::uvec4 as_bits(const glm::vec4& v) {
+  return as_bits(glm::vec3(v), layout::floatBitsToUint(v.w));
+}
 
 // The base of every pass: its probe, and the constants and buffers of the dispatch.
 template <class ProbeType>

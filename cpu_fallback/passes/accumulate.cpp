@@ -22,6 +22,8 @@ class Accumulate : public Kernel<Probe> {
 
 }  // namespace
 
-void accumulate(const CpuDispatch& dispatch) { run_pass<Accumulate>(dispatch, 4096); }
+void accumulate(const CpuDispatch& dispatch) {
+  run_pass<Accumulate>(dispatch, 4096);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -47,6 +47,8 @@ class Aov : public SurfaceKernel<Probe> {
 
 }  // namespace
 
-void aov(const CpuDispatch& dispatch) { run_pass<Aov>(dispatch, 512); }
+void aov(const CpuDispatch& dispatch) {
+  run_pass<Aov>(dispatch, 512);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -32,7 +32,8 @@ class Blend : public Kernel<Probe> {
       const uvec4 entry = this->load(morph_positions_, i);
       const vec3 normal_delta = as_vec3(this->load(morph_normals_, i));
       const float weight = uintBitsToFloat(this->load(weights_, entry.x));
-      position = position + weight * vec3(uintBitsToFloat(entry.y), uintBitsToFloat(entry.z), uintBitsToFloat(entry.w));
+      position = position +
+                 weight * vec3(uintBitsToFloat(entry.y), uintBitsToFloat(entry.z), uintBitsToFloat(entry.w));
       normal = normal + weight * normal_delta;
       if (push_.tangents != 0) tangent = tangent + weight * as_vec3(this->load(morph_tangents_, i));
     }
@@ -63,7 +64,8 @@ class Blend : public Kernel<Probe> {
   Rows weighted_matrix(uint32_t influence) {
     const uint64_t matrix = this->load(influences_, 2 * uint64_t(influence));
     const float weight = uintBitsToFloat(this->load(influences_, 2 * uint64_t(influence) + 1));
-    return {as_vec4(this->load(matrices_, 3 * matrix)) * weight, as_vec4(this->load(matrices_, 3 * matrix + 1)) * weight,
+    return {as_vec4(this->load(matrices_, 3 * matrix)) * weight,
+            as_vec4(this->load(matrices_, 3 * matrix + 1)) * weight,
             as_vec4(this->load(matrices_, 3 * matrix + 2)) * weight};
   }
 
@@ -78,6 +80,8 @@ class Blend : public Kernel<Probe> {
 
 }  // namespace
 
-void blend(const CpuDispatch& dispatch) { run_pass<Blend>(dispatch, 2048); }
+void blend(const CpuDispatch& dispatch) {
+  run_pass<Blend>(dispatch, 2048);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -19,8 +19,8 @@ class Bounds : public Kernel<Probe> {
       if (index < push_.written) bound_parent(index);
       return;
     }
-    const Bound p0 = bound_parent(4 * index), p1 = bound_parent(4 * index + 1), p2 = bound_parent(4 * index + 2),
-                p3 = bound_parent(4 * index + 3);
+    const Bound p0 = bound_parent(4 * index), p1 = bound_parent(4 * index + 1),
+                p2 = bound_parent(4 * index + 2), p3 = bound_parent(4 * index + 3);
     store_node(2, index, p0, p1, p2, p3);
   }
 
@@ -42,7 +42,8 @@ class Bounds : public Kernel<Probe> {
   }
 
   // The parent of c0 to c3, `levels` above the level that was read.
-  void store_node(uint32_t levels, uint32_t index, const Bound& c0, const Bound& c1, const Bound& c2, const Bound& c3) {
+  void store_node(uint32_t levels, uint32_t index, const Bound& c0, const Bound& c1, const Bound& c2,
+                  const Bound& c3) {
     const Bound node = layout::join(layout::join(c0, c1), layout::join(c2, c3));
     const uint32_t address = layout::level_base(push_.depth - levels) + index;
     this->store(nodes_lo_, address, as_bits(node.lo, layout::child_order(c0, c1, c2, c3)));
@@ -55,6 +56,8 @@ class Bounds : public Kernel<Probe> {
 
 }  // namespace
 
-void bounds(const CpuDispatch& dispatch) { run_pass<Bounds>(dispatch, 256); }
+void bounds(const CpuDispatch& dispatch) {
+  run_pass<Bounds>(dispatch, 256);
+}
 
 }  // namespace lodestone::cpu_fallback

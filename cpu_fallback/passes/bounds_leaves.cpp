@@ -50,6 +50,8 @@ class BoundsLeaves : public Kernel<Probe> {
 
 }  // namespace
 
-void bounds_leaves(const CpuDispatch& dispatch) { run_pass<BoundsLeaves>(dispatch, 1024); }
+void bounds_leaves(const CpuDispatch& dispatch) {
+  run_pass<BoundsLeaves>(dispatch, 1024);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -12,7 +12,8 @@ class Camera : public Kernel<Probe> {
   using Kernel<Probe>::Kernel;
 
   void operator()(uint32_t index) {
-    const layout::Ray ray = layout::camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered);
+    const layout::Ray ray =
+        layout::camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered);
     this->store(rays_, 2 * uint64_t(index), as_bits(ray.origin, layout::floatBitsToUint(ray.tmin)));
     this->store(rays_, 2 * uint64_t(index) + 1, as_bits(ray.direction, layout::floatBitsToUint(ray.tmax)));
   }
@@ -25,6 +26,8 @@ class Camera : public Kernel<Probe> {
 
 }  // namespace
 
-void camera(const CpuDispatch& dispatch) { run_pass<Camera>(dispatch, 2048); }
+void camera(const CpuDispatch& dispatch) {
+  run_pass<Camera>(dispatch, 2048);
+}
 
 }  // namespace lodestone::cpu_fallback

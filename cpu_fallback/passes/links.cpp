@@ -44,6 +44,8 @@ class Links : public Kernel<Probe> {
 
 }  // namespace
 
-void links(const CpuDispatch& dispatch) { run_pass<Links>(dispatch, 4096); }
+void links(const CpuDispatch& dispatch) {
+  run_pass<Links>(dispatch, 4096);
+}
 
 }  // namespace lodestone::cpu_fallback

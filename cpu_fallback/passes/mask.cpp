@@ -30,6 +30,8 @@ class Mask : public SurfaceKernel<Probe> {
 
 }  // namespace
 
-void mask(const CpuDispatch& dispatch) { run_pass<Mask>(dispatch, 512); }
+void mask(const CpuDispatch& dispatch) {
+  run_pass<Mask>(dispatch, 512);
+}
 
 }  // namespace lodestone::cpu_fallback

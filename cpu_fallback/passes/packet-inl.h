@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sixteen rays of one octant together through the tree, in the order of that octant; a node is read once for all of them.
-// Lane by lane the arithmetic is that of layout/trace.h. Included once a SIMD target.
+// Sixteen rays of one octant together through the tree, in the order of that octant; a node is read once for
+// all of them. Lane by lane the arithmetic is that of layout/trace.h. Included once a SIMD target.
 
 #if defined(LODESTONE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LODESTONE_PACKET_INL_H_
@@ -29,26 +29,16 @@ struct Vec3 {
 HWY_ATTR inline Vec3 sub(const Vec3& a, const Vec3& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-HWY_ATTR inline Vec3 add(const Vec3& a, const Vec3& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_ATTR inline Floats dot(const Vec3& a, const Vec3& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_ATTR inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-HWY_ATTR inline Floats edge_function(const Vec3& p, const Vec3& q, const Vec3& direction) {
-  return dot(direction, cross(sub(q, p), add(p, q)));
+HWY_ATTR inline Floats edge_function(const Vec3& p, const Vec3& q) {
+  return hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
 }
 
 // The packet's rays and best hits, structure of arrays.
 struct Packet {
-  alignas(64) float origin[3][packet_rays], direction[3][packet_rays], inverse[3][packet_rays];
+  alignas(64) float origin[3][packet_rays], shear[3][packet_rays], inverse[3][packet_rays];
   alignas(64) float near_origin[3][packet_rays], far_origin[3][packet_rays];
   alignas(64) float tmin[packet_rays], t[packet_rays], u[packet_rays], v[packet_rays];
-  alignas(64) uint32_t primitive[packet_rays];
+  alignas(64) uint32_t primitive[packet_rays], axis[packet_rays];
 };
 
 HWY_ATTR inline Vec3 load3(const float (&a)[3][packet_rays], uint32_t lane) {
@@ -60,22 +50,18 @@ HWY_ATTR inline Vec3 load3(const float (&a)[3][packet_rays], uint32_t lane) {
 struct QuadTest {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
-  Vec3 direction;
   Floats tmin, enter, best_t, best_u, best_v;
   Ids best_primitive;
 
-  HWY_ATTR void accept(const Vec3& p0, const Vec3& p1, const Vec3& p2, Floats w0, Floats w1, Floats w2, Mask entered,
-                       uint32_t primitive) {
+  HWY_ATTR void accept(const Vec3& p0, const Vec3& p1, const Vec3& p2, Floats w0, Floats w1, Floats w2,
+                       Mask entered, uint32_t primitive) {
     const auto zero = hn::Zero(d);
     const Mask positive = hn::And(hn::And(hn::Ge(w0, zero), hn::Ge(w1, zero)), hn::Ge(w2, zero));
     const Mask negative = hn::And(hn::And(hn::Le(w0, zero), hn::Le(w1, zero)), hn::Le(w2, zero));
-    Mask hit = hn::And(hn::Or(positive, negative), entered);
-    if (hn::AllFalse(d, hit)) return;
-    const Vec3 normal = cross(sub(p1, p0), sub(p2, p0));
-    const Floats facing = dot(normal, direction);
     const Floats sum = hn::Add(hn::Add(w0, w1), w2);
-    Floats t = hn::Div(dot(normal, p0), facing);
-    hit = hn::And(hit, hn::And(hn::Ne(facing, zero), hn::Ne(sum, zero)));
+    Mask hit = hn::And(hn::And(hn::Or(positive, negative), entered), hn::Ne(sum, zero));
+    if (hn::AllFalse(d, hit)) return;
+    Floats t = hn::Div(hn::Add(hn::Add(hn::Mul(w0, p0.z), hn::Mul(w1, p1.z)), hn::Mul(w2, p2.z)), sum);
     hit = hn::And(hit, hn::Gt(t, tmin));
     t = hn::IfThenElse(hn::Lt(t, enter), enter, t);
     const Ids ids = hn::Set(du, primitive);
@@ -88,26 +74,43 @@ struct QuadTest {
   }
 };
 
-HWY_ATTR inline Vec3 relative(const glm::vec3& p, const Vec3& origin) {
-  const Lanes d;
-  return sub({hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)}, origin);
-}
+// layout::sheared for each lane; `along_x`, `along_y`: the lanes whose rays run mostly that way.
+struct Shearing {
+  Vec3 origin, shear;
+  Mask along_x, along_y;
 
-HWY_ATTR inline void test_quad(TraceBlock& block, Packet& packet, uint32_t address, uint32_t lane, Mask entered,
-                               Floats enter) {
+  HWY_ATTR Vec3 operator()(const glm::vec3& point) const {
+    const Lanes d;
+    const Vec3 p = sub({hn::Set(d, point.x), hn::Set(d, point.y), hn::Set(d, point.z)}, origin);
+    const Floats x = hn::IfThenElse(along_x, p.y, hn::IfThenElse(along_y, p.z, p.x));
+    const Floats y = hn::IfThenElse(along_x, p.z, hn::IfThenElse(along_y, p.x, p.y));
+    const Floats z = hn::IfThenElse(along_x, p.x, hn::IfThenElse(along_y, p.y, p.z));
+    return {hn::Sub(x, hn::Mul(shear.x, z)), hn::Sub(y, hn::Mul(shear.y, z)), hn::Mul(shear.z, z)};
+  }
+};
+
+HWY_ATTR inline void test_quad(TraceBlock& block, Packet& packet, uint32_t address, uint32_t lane,
+                               Mask entered, Floats enter) {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
   const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
-  const Vec3 origin = load3(packet.origin, lane), direction = load3(packet.direction, lane);
-  const Vec3 pa = relative(block.texel(texel), origin), pb = relative(block.texel(texel + 1), origin);
-  const Vec3 pc = relative(block.texel(texel + stride), origin), pd = relative(block.texel(texel + stride + 1), origin);
-  const Floats bc = edge_function(pb, pc, direction), ab = edge_function(pa, pb, direction),
-               ca = edge_function(pc, pa, direction), dc = edge_function(pd, pc, direction),
-               bd = edge_function(pb, pd, direction);
-  QuadTest test{d, du, direction, hn::Load(d, packet.tmin + lane), enter, hn::Load(d, packet.t + lane),
-                hn::Load(d, packet.u + lane), hn::Load(d, packet.v + lane), hn::Load(du, packet.primitive + lane)};
-  test.accept(pa, pb, pc, bc, ca, ab, entered, 2 * texel);
-  test.accept(pd, pc, pb, hn::Neg(bc), bd, dc, entered, 2 * texel + 1);
+  const Ids axis = hn::Load(du, packet.axis + lane);
+  const Shearing shearing{load3(packet.origin, lane), load3(packet.shear, lane),
+                          hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 0))),
+                          hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 1)))};
+  const Vec3 a = shearing(block.texel(texel)), b = shearing(block.texel(texel + 1));
+  const Vec3 c = shearing(block.texel(texel + stride)), e = shearing(block.texel(texel + stride + 1));
+  const Floats bc = edge_function(b, c);
+  QuadTest test{d,
+                du,
+                hn::Load(d, packet.tmin + lane),
+                enter,
+                hn::Load(d, packet.t + lane),
+                hn::Load(d, packet.u + lane),
+                hn::Load(d, packet.v + lane),
+                hn::Load(du, packet.primitive + lane)};
+  test.accept(a, b, c, bc, edge_function(c, a), edge_function(a, b), entered, 2 * texel);
+  test.accept(e, c, b, hn::Neg(bc), edge_function(b, e), edge_function(e, c), entered, 2 * texel + 1);
   hn::Store(test.best_t, d, packet.t + lane);
   hn::Store(test.best_u, d, packet.u + lane);
   hn::Store(test.best_v, d, packet.v + lane);
@@ -120,9 +123,13 @@ HWY_ATTR inline void load_packet(const TraceBlock& block, uint32_t first, uint32
     layout::Ray ray = block.ray(first + std::min(lane, count - 1));
     if (lane >= count) ray.tmax = -1;
     const layout::Slabs slabs = layout::make_slabs(ray, block.extent());
+    const layout::Shear shear = layout::make_shear(ray);
+    packet.axis[lane] = shear.axis;
+    packet.shear[0][lane] = shear.x;
+    packet.shear[1][lane] = shear.y;
+    packet.shear[2][lane] = shear.z;
     for (int axis = 0; axis < 3; ++axis) {
       packet.origin[axis][lane] = ray.origin[axis];
-      packet.direction[axis][lane] = ray.direction[axis];
       packet.inverse[axis][lane] = slabs.inverse[axis];
       packet.near_origin[axis][lane] = slabs.near_origin[axis];
       packet.far_origin[axis][lane] = slabs.far_origin[axis];
@@ -147,8 +154,10 @@ HWY_ATTR inline void trace_packet(TraceBlock& block, uint32_t first, uint32_t co
     const uint32_t address = layout::walk_address(walk);
     const float* lo = block.nodes_lo(address);
     const float* hi = block.nodes_hi(address);
-    const Vec3 near_plane{hn::Set(d, x ? hi[0] : lo[0]), hn::Set(d, y ? hi[1] : lo[1]), hn::Set(d, z ? hi[2] : lo[2])};
-    const Vec3 far_plane{hn::Set(d, x ? lo[0] : hi[0]), hn::Set(d, y ? lo[1] : hi[1]), hn::Set(d, z ? lo[2] : hi[2])};
+    const Vec3 near_plane{hn::Set(d, x ? hi[0] : lo[0]), hn::Set(d, y ? hi[1] : lo[1]),
+                          hn::Set(d, z ? hi[2] : lo[2])};
+    const Vec3 far_plane{hn::Set(d, x ? lo[0] : hi[0]), hn::Set(d, y ? lo[1] : hi[1]),
+                         hn::Set(d, z ? lo[2] : hi[2])};
     const bool leaf = walk.depth == block.depth();
     bool inside = false;
     uint32_t active = 0;
@@ -172,7 +181,8 @@ HWY_ATTR inline void trace_packet(TraceBlock& block, uint32_t first, uint32_t co
     }
     block.count_step(packet_rays, active, packet_rays);
     ++visits;
-    walk = inside && !leaf ? layout::walk_down(walk, (block.order(address) >> (2 * octant)) & 3u) : layout::walk_on(walk);
+    walk = inside && !leaf ? layout::walk_down(walk, (block.order(address) >> (2 * octant)) & 3u)
+                           : layout::walk_on(walk);
   }
   for (uint32_t i = 0; i < count; ++i) {
     block.finish(first + i, block.ray(first + i),

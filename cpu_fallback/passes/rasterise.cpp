@@ -41,6 +41,8 @@ class Rasterise : public Kernel<Probe> {
 
 }  // namespace
 
-void rasterise(const CpuDispatch& dispatch) { run_pass<Rasterise>(dispatch, 4096); }
+void rasterise(const CpuDispatch& dispatch) {
+  run_pass<Rasterise>(dispatch, 4096);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -29,6 +29,8 @@ class Resolve : public Kernel<Probe> {
 
 }  // namespace
 
-void resolve(const CpuDispatch& dispatch) { run_pass<Resolve>(dispatch, 2048); }
+void resolve(const CpuDispatch& dispatch) {
+  run_pass<Resolve>(dispatch, 2048);
+}
 
 }  // namespace lodestone::cpu_fallback

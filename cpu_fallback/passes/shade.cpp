@@ -33,7 +33,8 @@ class Shade : public SurfaceKernel<Probe> {
       const glm::vec2 xi = layout::sample_2d(frame.seed, py * frame.width + px, push_.sample_index,
                                              layout::pair_sky + push_.light);
       const layout::LightSample light = layout::sample_light(lights_[push_.light], frame, surface, xi);
-      if (layout::dot3(light.direction, surface.geometric) > 0.0f && layout::max_component(light.radiance) > 0.0f) {
+      if (layout::dot3(light.direction, surface.geometric) > 0.0f &&
+          layout::max_component(light.radiance) > 0.0f) {
         const layout::Ray shadow = layout::shadow_ray(surface, light);
         contribution = as_bits(light.radiance, 0);
         shadow_from = as_bits(shadow.origin, floatBitsToUint(shadow.tmin));
@@ -59,6 +60,8 @@ class Shade : public SurfaceKernel<Probe> {
 
 }  // namespace
 
-void shade(const CpuDispatch& dispatch) { run_pass<Shade>(dispatch, 512); }
+void shade(const CpuDispatch& dispatch) {
+  run_pass<Shade>(dispatch, 512);
+}
 
 }  // namespace lodestone::cpu_fallback

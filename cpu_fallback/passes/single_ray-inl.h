@@ -25,16 +25,19 @@ struct RaySlabs {
   float tmin;
 };
 
-// Tests `count` (at most 16) nodes from `address` on; returns the bits of those entered before `tmax` and their distances.
-HWY_ATTR inline uint32_t test_boxes(const TraceBlock& block, const RaySlabs& ray, uint32_t address, uint32_t count,
-                                    float tmax, float* HWY_RESTRICT enter) {
+// Tests `count` (at most 16) nodes from `address` on; returns the bits of those entered before `tmax` and
+// their distances.
+HWY_ATTR inline uint32_t test_boxes(const TraceBlock& block, const RaySlabs& ray, uint32_t address,
+                                    uint32_t count, float tmax, float* HWY_RESTRICT enter) {
   const Boxes d;
   const layout::Slabs& s = ray.s;
   const auto tmin = hn::Set(d, ray.tmin), limit = hn::Set(d, tmax);
   const auto near_x = hn::Set(d, s.near_origin.x), near_y = hn::Set(d, s.near_origin.y),
              near_z = hn::Set(d, s.near_origin.z);
-  const auto far_x = hn::Set(d, s.far_origin.x), far_y = hn::Set(d, s.far_origin.y), far_z = hn::Set(d, s.far_origin.z);
-  const auto inv_x = hn::Set(d, s.inverse.x), inv_y = hn::Set(d, s.inverse.y), inv_z = hn::Set(d, s.inverse.z);
+  const auto far_x = hn::Set(d, s.far_origin.x), far_y = hn::Set(d, s.far_origin.y),
+             far_z = hn::Set(d, s.far_origin.z);
+  const auto inv_x = hn::Set(d, s.inverse.x), inv_y = hn::Set(d, s.inverse.y),
+             inv_z = hn::Set(d, s.inverse.z);
   const size_t lanes = hn::Lanes(d);
   uint32_t hits = 0;
   for (uint32_t first = 0; first < count; first += lanes) {
@@ -65,8 +68,8 @@ struct StackEntry {
 };
 
 // Puts the entered nodes on the stack, the nearest last.
-HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t hits, const float* enter, uint32_t index,
-                                     uint32_t level) {
+HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t hits, const float* enter,
+                                     uint32_t index, uint32_t level) {
   const uint32_t bottom = size;
   for (; hits != 0; hits &= hits - 1) {
     const auto child = static_cast<uint32_t>(std::countr_zero(hits));
@@ -78,11 +81,11 @@ HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t 
   return size;
 }
 
-HWY_ATTR inline void test_quad(TraceBlock& block, const layout::Ray& ray, uint32_t address, float enter,
-                               layout::Hit& best) {
+HWY_ATTR inline void test_quad(TraceBlock& block, const layout::Ray& ray, const layout::Shear& shear,
+                               uint32_t address, float enter, layout::Hit& best) {
   const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
   layout::intersect_quad(block.texel(texel), block.texel(texel + 1), block.texel(texel + stride),
-                         block.texel(texel + stride + 1), ray, enter, texel, best);
+                         block.texel(texel + stride + 1), ray, shear, enter, texel, best);
   block.count_quad(1);
 }
 
@@ -93,8 +96,10 @@ HWY_ATTR inline void trace_single(TraceBlock& block, uint32_t index) {
   uint32_t visits = 0;
   if (!(ray.tmax < 0.0f)) {
     const RaySlabs slabs{layout::make_slabs(ray, block.extent()), ray.tmin};
+    const layout::Shear shear = layout::make_shear(ray);
     const uint32_t depth = block.depth();
-    // Two levels a step, so that the last step ends on the leaves: from the root's children where the depth is odd.
+    // Two levels a step, so that the last step ends on the leaves: from the root's children where the depth
+    // is odd.
     StackEntry stack[16 * (layout::max_depth / 2 + 1)];
     uint32_t size = 0;
     alignas(64) float enter[16];
@@ -115,7 +120,7 @@ HWY_ATTR inline void trace_single(TraceBlock& block, uint32_t index) {
           }
           hits &= ~(1u << nearest);
           if (enter[nearest] > best.t) break;
-          test_quad(block, ray, layout::level_base(level) + first + nearest, enter[nearest], best);
+          test_quad(block, ray, shear, layout::level_base(level) + first + nearest, enter[nearest], best);
         }
         if (block.any_hit() && best.primitive != layout::no_index) break;
       } else {

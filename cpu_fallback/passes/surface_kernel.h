@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The buffers that surface.h reads, slots 0 to 15 of `mask`, `shade` and `aov`, and that header itself: the one piece of
-// the kernels that is compiled by both languages as it stands.
+// The buffers that surface.h reads, slots 0 to 15 of `mask`, `shade` and `aov`, and that header itself: the
+// one piece of the kernels that is compiled by both languages as it stands.
 #pragma once
 
 #include "lodestone/cpu_fallback/passes/passes.h"
@@ -23,9 +23,9 @@ class SurfaceKernel : public Kernel<Probe> {
 
   void count_read(uint32_t words) { this->probe.read(words); }
 
-  Quads hits = this->quads(0), geometry = this->quads(1), normal_map = this->quads(2), texel_map = this->quads(3),
-        triangles = this->quads(4), positions = this->quads(5), normals = this->quads(6), tangents = this->quads(7),
-        texcoords = this->quads(8);
+  Quads hits = this->quads(0), geometry = this->quads(1), normal_map = this->quads(2),
+        texel_map = this->quads(3), triangles = this->quads(4), positions = this->quads(5),
+        normals = this->quads(6), tangents = this->quads(7), texcoords = this->quads(8);
   Words images = this->words(9), srgb_table = this->words(10);
   Structs<layout::ChartRecord> charts = this->template structs<layout::ChartRecord>(11);
   Structs<layout::PartRecord> parts = this->template structs<layout::PartRecord>(12);
@@ -43,13 +43,27 @@ class SurfaceKernel : public Kernel<Probe> {
   using Surface = layout::Surface;
   using TexelPair = layout::TexelPair;
   static constexpr uint no_index = layout::no_index, chart_grid = layout::chart_grid;
-  static float uintBitsToFloat(uint bits) { return layout::uintBitsToFloat(bits); }
-  static float dot3(vec3 a, vec3 b) { return layout::dot3(a, b); }
-  static vec3 cross3(vec3 a, vec3 b) { return layout::cross3(a, b); }
-  static vec3 normalize_or(vec3 v, vec3 fallback) { return layout::normalize_or(v, fallback); }
-  static float saturate(float x) { return layout::saturate(x); }
-  static vec4 unpack_rgba8(uint rgba) { return layout::unpack_rgba8(rgba); }
-  static vec2 transform_texcoord(const TextureRecord& record, vec2 uv) { return layout::transform_texcoord(record, uv); }
+  static float uintBitsToFloat(uint bits) {
+    return layout::uintBitsToFloat(bits);
+  }
+  static float dot3(vec3 a, vec3 b) {
+    return layout::dot3(a, b);
+  }
+  static vec3 cross3(vec3 a, vec3 b) {
+    return layout::cross3(a, b);
+  }
+  static vec3 normalize_or(vec3 v, vec3 fallback) {
+    return layout::normalize_or(v, fallback);
+  }
+  static float saturate(float x) {
+    return layout::saturate(x);
+  }
+  static vec4 unpack_rgba8(uint rgba) {
+    return layout::unpack_rgba8(rgba);
+  }
+  static vec2 transform_texcoord(const TextureRecord& record, vec2 uv) {
+    return layout::transform_texcoord(record, uv);
+  }
   static TexelPair texel_pair(float x, uint size, uint wrap, uint nearest) {
     return layout::texel_pair(x, size, wrap, nearest);
   }

@@ -14,11 +14,13 @@ inline constexpr uint32_t packet_rays = 16;
 
 class TraceBlock : public TraceKernel<CountingProbe> {
  public:
-  explicit TraceBlock(const CpuDispatch& dispatch) : TraceKernel<CountingProbe>(dispatch), extent_(scene_extent()) {
+  explicit TraceBlock(const CpuDispatch& dispatch)
+      : TraceKernel<CountingProbe>(dispatch), extent_(scene_extent()) {
     for (uint32_t level = 0; level <= depth(); ++level) {
       const uint32_t shift = 2 * (depth() - level);
       const uint64_t used = (uint64_t(push_.slots) + (uint64_t(1) << shift) - 1) >> shift;
-      places_[level] = static_cast<uint32_t>(std::min<uint64_t>(uint64_t(1) << (2 * level), (used + 3) / 4 * 4));
+      places_[level] =
+          static_cast<uint32_t>(std::min<uint64_t>(uint64_t(1) << (2 * level), (used + 3) / 4 * 4));
     }
   }
 
@@ -49,7 +51,8 @@ class TraceBlock : public TraceKernel<CountingProbe> {
     return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
   }
 
-  // Whether ray `index` is to be traced in this dispatch, always from the root: nothing is left unfinished here.
+  // Whether ray `index` is to be traced in this dispatch, always from the root: nothing is left unfinished
+  // here.
   bool wanted(uint32_t index) {
     if (push_.resume == 0) return true;
     return states_.load4(index).w != layout::trace_finished;

@@ -20,7 +20,8 @@ class TraceKernel : public Kernel<Probe> {
   };
 
   layout::Ray load_ray(uint32_t index) {
-    const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)), along = this->load(rays_, 2 * uint64_t(index) + 1);
+    const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)),
+                     along = this->load(rays_, 2 * uint64_t(index) + 1);
     return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
   }
 
@@ -42,8 +43,8 @@ class TraceKernel : public Kernel<Probe> {
     state.place = this->load(states_, index);
     if (state.place.w == layout::trace_restart) return true;
     const glm::uvec4 bits = this->load(hits_, index);
-    state.best = {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y), layout::uintBitsToFloat(bits.z),
-                  bits.w};
+    state.best = {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y),
+                  layout::uintBitsToFloat(bits.z), bits.w};
     return state.place.w == layout::trace_unfinished;
   }
 
@@ -62,16 +63,19 @@ class TraceKernel : public Kernel<Probe> {
     this->probe.step();
   }
 
-  void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, float enter, layout::Hit& best) {
+  void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Shear& shear,
+                 float enter, layout::Hit& best) {
     layout::intersect_quad(as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
                            as_vec3(this->load(geometry_, texel + stride)),
-                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, enter, texel, best);
+                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, enter, texel,
+                           best);
     this->probe.triangles(2);
   }
 
   bool any_hit() const { return any_hit_; }
 
-  Quads rays_ = this->quads(0), nodes_lo_ = this->quads(1), nodes_hi_ = this->quads(2), geometry_ = this->quads(3);
+  Quads rays_ = this->quads(0), nodes_lo_ = this->quads(1), nodes_hi_ = this->quads(2),
+        geometry_ = this->quads(3);
   Words links_ = this->words(4);
   Quads hits_ = this->quads(5), states_ = this->quads(6);
   Words steps_ = this->words(7), pending_ = this->words(8);

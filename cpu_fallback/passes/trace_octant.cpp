@@ -14,6 +14,7 @@ class TraceOctant : public TraceKernel<Probe> {
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
     const layout::Slabs slabs = layout::make_slabs(ray, extent_);
+    const layout::Shear shear = layout::make_shear(ray);
     typename TraceKernel<Probe>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
@@ -30,14 +31,15 @@ class TraceOctant : public TraceKernel<Probe> {
           walk = layout::walk_down(walk, (lo.w >> (2 * slabs.octant)) & 3u);
           continue;
         }
-        if (inside) this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, ray, enter, best);
+        if (inside) this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, ray, shear, enter, best);
         walk = layout::walk_on(walk);
         if (this->any_hit() && best.primitive != layout::no_index) walk.depth = layout::walk_done;
         if (walk.depth == layout::walk_done) break;
       }
       finished = walk.depth == layout::walk_done;
     }
-    state.place = uvec4(walk.order, walk.turns, walk.depth, finished ? layout::trace_finished : layout::trace_unfinished);
+    state.place = uvec4(walk.order, walk.turns, walk.depth,
+                        finished ? layout::trace_finished : layout::trace_unfinished);
     this->end_ray(index, state);
   }
 
@@ -47,6 +49,8 @@ class TraceOctant : public TraceKernel<Probe> {
 
 }  // namespace
 
-void trace_octant(const CpuDispatch& dispatch) { run_pass<TraceOctant>(dispatch, 256); }
+void trace_octant(const CpuDispatch& dispatch) {
+  run_pass<TraceOctant>(dispatch, 256);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -14,6 +14,7 @@ class TraceThreaded : public TraceKernel<Probe> {
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
     const layout::Slabs slabs = layout::make_slabs(ray, extent_);
+    const layout::Shear shear = layout::make_shear(ray);
     typename TraceKernel<Probe>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
@@ -27,7 +28,7 @@ class TraceThreaded : public TraceKernel<Probe> {
         const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
         const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
         const bool at_leaf = inside && (hit & layout::leaf_flag) != 0;
-        if (at_leaf) this->test_leaf(hit & ~layout::leaf_flag, hi.w, ray, enter, best);
+        if (at_leaf) this->test_leaf(hit & ~layout::leaf_flag, hi.w, ray, shear, enter, best);
         link = inside && !at_leaf ? hit : miss;
         if (this->any_hit() && best.primitive != layout::no_index) link = 0;
         if (link == 0) break;
@@ -45,6 +46,8 @@ class TraceThreaded : public TraceKernel<Probe> {
 
 }  // namespace
 
-void trace_threaded(const CpuDispatch& dispatch) { run_pass<TraceThreaded>(dispatch, 256); }
+void trace_threaded(const CpuDispatch& dispatch) {
+  run_pass<TraceThreaded>(dispatch, 256);
+}
 
 }  // namespace lodestone::cpu_fallback

@@ -30,7 +30,9 @@ void trace_block(TraceBlock& block, uint32_t begin, uint32_t end) {
   }
 }
 
-const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+const char* target_name() {
+  return hwy::TargetName(HWY_TARGET);
+}
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -41,7 +43,9 @@ namespace lodestone::cpu_fallback {
 HWY_EXPORT(trace_block);
 HWY_EXPORT(target_name);
 
-std::string simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
+std::string simd_target() {
+  return HWY_DYNAMIC_DISPATCH(target_name)();
+}
 
 void trace_wide(const CpuDispatch& dispatch) {
   const auto trace = HWY_DYNAMIC_DISPATCH(trace_block);

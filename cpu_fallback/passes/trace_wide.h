@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The CPU's fast traversal: rays that go together as packets of 16, others one by one against 16 bounds at once. SIMD by
-// run-time dispatch; the same hits as `threaded` and `octant`, to the bit, at every vector width.
+// The CPU's fast traversal: rays that go together as packets of 16, others one by one against 16 bounds at
+// once. SIMD by run-time dispatch; the same hits as `threaded` and `octant`, to the bit, at every vector
+// width.
 #pragma once
 
 #include "lodestone/cpu_fallback/kernel.h"

@@ -51,7 +51,7 @@ void count_step() {
   if (counting != 0u && subgroupElect()) subgroup_steps += gl_SubgroupSize;
 }
 
-void test_leaf(uint texel, uint stride, Ray ray, float enter, inout Hit best) {
+void test_leaf(uint texel, uint stride, Ray ray, Shear shear, float enter, inout Hit best) {
   uvec4 a;
   uvec4 b;
   uvec4 c;
@@ -60,7 +60,7 @@ void test_leaf(uint texel, uint stride, Ray ray, float enter, inout Hit best) {
   LOAD4(b, geometry, texel + 1u);
   LOAD4(c, geometry, texel + stride);
   LOAD4(d, geometry, texel + stride + 1u);
-  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, enter, texel, best);
+  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, enter, texel, best);
   triangle_tests += 2u;
 }
 

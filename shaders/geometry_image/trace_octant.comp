@@ -11,6 +11,7 @@ void main() {
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
   Slabs slabs = make_slabs(ray, scene_extent());
+  Shear shear = make_shear(ray);
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) return;
@@ -50,7 +51,7 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, enter, best);
+      test_leaf(texel, stride, ray, shear, enter, best);
       walk = walk_on(walk);
       if (any_hit != 0u && best.primitive != no_index) walk.depth = walk_done;
       budget -= 1u;

@@ -10,6 +10,7 @@ void main() {
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
   Slabs slabs = make_slabs(ray, scene_extent());
+  Shear shear = make_shear(ray);
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) return;
@@ -45,7 +46,7 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, enter, best);
+      test_leaf(texel, stride, ray, shear, enter, best);
       link = any_hit != 0u && best.primitive != no_index ? 0u : miss;
       budget -= 1u;
       walking = link != 0u && budget != 0u;

@@ -36,10 +36,11 @@ struct Slabs {
   uint octant;  // bit i: direction component i is negative
 };
 
-// The rounding errors of the edge functions move an edge by less than 2^-18 of the largest coordinate in play (vertices
-// relative to the origin: 1 ulp each; products and sums: about a dozen more). Bounds are widened by that, or a ray
-// through an edge could pass beside the bound of the very triangle that claims it.
-CONST float slab_margin = 3.8146973e-6f;  // 2^-18
+// Rounding moves the corners of a sheared triangle by less than 2^-20.4 of the largest coordinate in play (difference to
+// the origin 2^-23, shear factor and its product 2^-22 and 2^-23, their difference 2^-22), and slab distances are off by
+// 2^-21.4 of it. Bounds are widened by more than both together, or a ray through an edge could pass beside the bound of
+// the very triangle that claims it.
+CONST float slab_margin = 1.9073486e-6f;  // 2^-19
 
 // Directions below 2^-40 count as that, so that no slab distance is 0 * infinity.
 FN float slab_inverse(float d) {
@@ -76,24 +77,57 @@ FN float slab_exit(Slabs s, vec3 lo, vec3 hi, float tmax) {
   return min2(min2(x, y), min2(z, tmax));
 }
 
-// Twice the signed volume of the ray's direction and the edge p q (both relative to the ray's origin). Swapping p
-// and q flips the sign and nothing else, so both triangles at an edge decide alike.
-FN float edge_function(vec3 p, vec3 q, vec3 direction) { return dot3(direction, cross3(q - p, p + q)); }
+// Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection": space is sheared so that the ray runs along z
+// through (0, 0). Each corner is sheared once and alike for all triangles that have it, and the rounded products of a 2D edge
+// function never get its sign wrong, at worst they say 0. So with 0 counted as inside for both triangles at an edge, every
+// point that a closed surface covers is covered by one of its triangles, at edges and at vertices. (Signed volumes from
+// rounded 3D products are consistent along edges, but round a vertex all of them can fall on one side.)
+struct Shear {
+  uint axis;  // the direction's largest component, which becomes z
+  float x;
+  float y;
+  float z;    // t per unit of that component
+};
+
+FN Shear make_shear(Ray ray) {
+  vec3 size = vec3(abs1(ray.direction.x), abs1(ray.direction.y), abs1(ray.direction.z));
+  Shear shear;
+  shear.axis = size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
+  vec3 d = ray.direction;
+  float dx = shear.axis == 0u ? d.y : (shear.axis == 1u ? d.z : d.x);
+  float dy = shear.axis == 0u ? d.z : (shear.axis == 1u ? d.x : d.y);
+  float dz = shear.axis == 0u ? d.x : (shear.axis == 1u ? d.y : d.z);
+  shear.x = dx / dz;
+  shear.y = dy / dz;
+  shear.z = 1.0f / dz;
+  return shear;
+}
+
+FN vec3 sheared(vec3 point, vec3 origin, Shear shear) {
+  vec3 p = point - origin;
+  float px = shear.axis == 0u ? p.y : (shear.axis == 1u ? p.z : p.x);
+  float py = shear.axis == 0u ? p.z : (shear.axis == 1u ? p.x : p.y);
+  float pz = shear.axis == 0u ? p.x : (shear.axis == 1u ? p.y : p.z);
+  return vec3(px - shear.x * pz, py - shear.y * pz, shear.z * pz);
+}
+
+// On which side of the edge p q the ray passes. Swapping p and q flips the sign and nothing else.
+FN float edge_function(vec3 p, vec3 q) { return p.x * q.y - p.y * q.x; }
 
 FN bool one_sided(float a, float b, float c) {
   return (a >= 0.0f && b >= 0.0f && c >= 0.0f) || (a <= 0.0f && b <= 0.0f && c <= 0.0f);
 }
 
-FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, Ray ray, float enter,
+// w0, w1, w2: the edge functions opposite p0, p1, p2. t is a mean of the corners' with weights of one sign, so it cannot
+// leave their range however small the triangle is.
+FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, float enter,
                         uint primitive, INOUT(Hit) best) {
-  vec3 normal = cross3(p1 - p0, p2 - p0);
-  float facing = dot3(normal, ray.direction);
   float sum = w0 + w1 + w2;
-  if (one_sided(w0, w1, w2) && facing != 0.0f && sum != 0.0f) {
-    float t = dot3(normal, p0) / facing;
-    bool inside = t > ray.tmin;
+  if (one_sided(w0, w1, w2) && sum != 0.0f) {
+    float t = (w0 * p0.z + w1 * p1.z + w2 * p2.z) / sum;
+    bool beyond = t > tmin;
     t = max2(t, enter);
-    if (inside && (t < best.t || (t == best.t && primitive < best.primitive))) {
+    if (beyond && (t < best.t || (t == best.t && primitive < best.primitive))) {
       best.t = t;
       best.u = w1 / sum;
       best.v = w2 / sum;
@@ -103,18 +137,15 @@ FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2,
 }
 
 // Both triangles of the quad a b c d by its five edge functions. `enter`: slab_enter of the quad's own bound.
-FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, float enter, uint texel, INOUT(Hit) best) {
-  a = a - ray.origin;
-  b = b - ray.origin;
-  c = c - ray.origin;
-  d = d - ray.origin;
-  float bc = edge_function(b, c, ray.direction);
-  float ab = edge_function(a, b, ray.direction);
-  float ca = edge_function(c, a, ray.direction);
-  float dc = edge_function(d, c, ray.direction);
-  float bd = edge_function(b, d, ray.direction);
-  accept_triangle(a, b, c, bc, ca, ab, ray, enter, 2u * texel, best);
-  accept_triangle(d, c, b, -bc, bd, dc, ray, enter, 2u * texel + 1u, best);
+FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, float enter, uint texel,
+                       INOUT(Hit) best) {
+  a = sheared(a, ray.origin, shear);
+  b = sheared(b, ray.origin, shear);
+  c = sheared(c, ray.origin, shear);
+  d = sheared(d, ray.origin, shear);
+  float bc = edge_function(b, c);
+  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, enter, 2u * texel, best);
+  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, enter, 2u * texel + 1u, best);
 }
 
 // A place in the tree in visiting order, without a stack: two bits a level. `turns` holds, for each level on the path,

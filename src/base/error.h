@@ -12,11 +12,11 @@ namespace lodestone {
 
 enum class ExitCode : int {
   done = 0,
-  different = 1,    // a comparison found a difference
-  usage = 2,        // wrong usage of the command line
-  bad_input = 3,    // a file is truncated, absurd or hostile
-  device = 4,       // no usable device, or it failed
-  machine = 5,      // disk full, out of memory
+  different = 1,  // a comparison found a difference
+  usage = 2,      // wrong usage of the command line
+  bad_input = 3,  // a file is truncated, absurd or hostile
+  device = 4,     // no usable device, or it failed
+  machine = 5,    // disk full, out of memory
   interrupted = 130
 };
 

@@ -41,8 +41,8 @@ fs::path temporary_beside(const fs::path& path) {
     }
   }
   fs::path temporary = path;
-  temporary.replace_filename(fmt::format(".{}.{}.{}{}", path.stem().string(), ::getpid(), serial++,
-                                         path.extension().string()));
+  temporary.replace_filename(
+      fmt::format(".{}.{}.{}{}", path.stem().string(), ::getpid(), serial++, path.extension().string()));
   return temporary;
 }
 

@@ -23,12 +23,10 @@ class ContentHash {
   void add(std::span<const std::byte> bytes);
   void add(const std::string& text);  // with its length
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  void add_value(const T& value) {
-    add(std::as_bytes(std::span(&value, 1)));
-  }
+  requires std::is_trivially_copyable_v<T>
+  void add_value(const T& value) { add(std::as_bytes(std::span(&value, 1))); }
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void add_array(const std::vector<T>& values) {  // with its length
     add_value(uint64_t(values.size()));
     add(std::as_bytes(std::span(values)));

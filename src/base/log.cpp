@@ -11,8 +11,12 @@ namespace {
 std::atomic<Level> current{Level::normal};
 }
 
-void set_level(Level level) { current = level; }
-Level level() { return current; }
+void set_level(Level level) {
+  current = level;
+}
+Level level() {
+  return current;
+}
 
 void warn(const std::string& message) {
   if (current != Level::quiet) fmt::print(stderr, "lodestone: warning: {}\n", message);

@@ -19,7 +19,9 @@ namespace {
 std::atomic<uint32_t> threads_wanted{0};
 }
 
-void set_thread_count(uint32_t threads) { threads_wanted = threads; }
+void set_thread_count(uint32_t threads) {
+  threads_wanted = threads;
+}
 
 uint32_t thread_count() {
   const uint32_t wanted = threads_wanted;
@@ -55,9 +57,10 @@ void parallel_for(uint64_t count, uint64_t grain, const std::function<void(uint6
 #else
   tbb::task_arena arena(static_cast<int>(threads));
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, blocks, 1), [&](const tbb::blocked_range<uint64_t>& range) {
-      for (uint64_t block = range.begin(); block != range.end(); ++block) run_block(block);
-    });
+    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, blocks, 1),
+                      [&](const tbb::blocked_range<uint64_t>& range) {
+                        for (uint64_t block = range.begin(); block != range.end(); ++block) run_block(block);
+                      });
   });
 #endif
 }

@@ -35,7 +35,8 @@ const std::map<std::string, std::vector<Place>>& places() {
 void check_aovs(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (!places().contains(name)) {
-      fail(ExitCode::usage, "--aov " + name, "no such output; there are: depth, normal, albedo, uv, id, lod, steps");
+      fail(ExitCode::usage, "--aov " + name,
+           "no such output; there are: depth, normal, albedo, uv, id, lod, steps");
     }
   }
 }

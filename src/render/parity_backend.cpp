@@ -8,7 +8,8 @@
 
 namespace lodestone::render {
 
-// A buffer has the same id in all three; the device's contents lead, the reference's are made equal before each pass.
+// A buffer has the same id in all three; the device's contents lead, the reference's are made equal before
+// each pass.
 struct ParityBackend::State {
   std::unique_ptr<Backend> device, reference;
   std::optional<Fault> fault;
@@ -81,7 +82,9 @@ ParityBackend::ParityBackend(std::unique_ptr<Backend> device, std::unique_ptr<Ba
 
 ParityBackend::~ParityBackend() = default;
 
-const DeviceInfo& ParityBackend::info() const { return state_->device->info(); }
+const DeviceInfo& ParityBackend::info() const {
+  return state_->device->info();
+}
 
 BufferId ParityBackend::create(const BufferDesc& desc) {
   const BufferId id = state_->next++;
@@ -141,6 +144,8 @@ uint64_t ParityBackend::allocated_bytes() const {
   return state_->device->allocated_bytes() + state_->reference->allocated_bytes();
 }
 
-const std::vector<PassDifference>& ParityBackend::differences() const { return state_->differences; }
+const std::vector<PassDifference>& ParityBackend::differences() const {
+  return state_->differences;
+}
 
 }  // namespace lodestone::render

@@ -14,10 +14,10 @@ using enum BindingKind;
 constexpr Binding links_bindings[] = {{"leaf_map", word, read}, {"links", word, write}};
 
 constexpr Binding blend_bindings[] = {
-    {"base_positions", quad, read},  {"base_normals", quad, read},  {"base_tangents", quad, read},
-    {"vertex_ranges", quad, read},   {"morph_positions", quad, read}, {"morph_normals", quad, read},
-    {"morph_tangents", quad, read},  {"influences", word, read},    {"weights", word, read},
-    {"matrices", quad, read},        {"positions", quad, write},    {"normals", quad, write},
+    {"base_positions", quad, read}, {"base_normals", quad, read},    {"base_tangents", quad, read},
+    {"vertex_ranges", quad, read},  {"morph_positions", quad, read}, {"morph_normals", quad, read},
+    {"morph_tangents", quad, read}, {"influences", word, read},      {"weights", word, read},
+    {"matrices", quad, read},       {"positions", quad, write},      {"normals", quad, write},
     {"tangents", quad, write}};
 
 constexpr Binding rasterise_bindings[] = {{"texel_map", quad, read}, {"triangles", quad, read},
@@ -32,18 +32,23 @@ constexpr Binding bounds_bindings[] = {{"nodes_lo", quad, read_write}, {"nodes_h
 constexpr Binding camera_bindings[] = {{"frame", structs, read}, {"rays", quad, write}};
 
 constexpr Binding trace_bindings[] = {
-    {"rays", quad, read},        {"nodes_lo", quad, read},   {"nodes_hi", quad, read},
-    {"geometry", quad, read},    {"links", word, read},      {"hits", quad, read_write},
+    {"rays", quad, read},         {"nodes_lo", quad, read},    {"nodes_hi", quad, read},
+    {"geometry", quad, read},     {"links", word, read},       {"hits", quad, read_write},
     {"states", quad, read_write}, {"steps", word, read_write}, {"pending", structs, read_write}};
 
-#define SURFACE_BINDINGS                                                                                        \
-  {"hits", quad, read}, {"geometry", quad, read}, {"normal_map", quad, read}, {"texel_map", quad, read},        \
-      {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read}, {"tangents", quad, read},  \
-      {"texcoords", quad, read}, {"images", word, read}, {"srgb_table", word, read}, {"charts", structs, read}, \
-      {"parts", structs, read}, {"materials", structs, read}, {"textures", structs, read}, {"frame", structs, read}
+#define SURFACE_BINDINGS                                                                                 \
+  {"hits", quad, read}, {"geometry", quad, read}, {"normal_map", quad, read}, {"texel_map", quad, read}, \
+      {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read},                     \
+      {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
+      {"srgb_table", word, read}, {"charts", structs, read}, {"parts", structs, read},                   \
+      {"materials", structs, read}, {"textures", structs, read}, {                                       \
+    "frame", structs, read                                                                               \
+  }
 
-constexpr Binding mask_bindings[] = {
-    SURFACE_BINDINGS, {"rays", quad, read_write}, {"states", quad, read_write}, {"pending", structs, read_write}};
+constexpr Binding mask_bindings[] = {SURFACE_BINDINGS,
+                                     {"rays", quad, read_write},
+                                     {"states", quad, read_write},
+                                     {"pending", structs, read_write}};
 
 constexpr Binding shade_bindings[] = {SURFACE_BINDINGS,
                                       {"rays", quad, read},
@@ -70,13 +75,15 @@ using namespace layout;
 const PassDecl links{"links", "geometry_image/links", links_bindings, sizeof(LinksPush)};
 const PassDecl blend{"blend", "geometry_image/blend", blend_bindings, sizeof(BlendPush)};
 const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bindings, sizeof(CountPush)};
-const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings, sizeof(BoundsPush)};
+const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings,
+                             sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
 const PassDecl camera{"camera", "geometry_image/camera", camera_bindings, sizeof(RayPush)};
 const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_bindings, sizeof(TracePush)};
 const PassDecl trace_octant{"trace", "geometry_image/trace_octant", trace_bindings, sizeof(TracePush)};
 const PassDecl trace_wide{"trace", "geometry_image/trace_wide", trace_bindings, sizeof(TracePush)};
-const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_bindings, sizeof(TracePush)};
+const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_bindings,
+                                sizeof(TracePush)};
 const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_bindings, sizeof(TracePush)};
 const PassDecl occlude_wide{"occlude", "geometry_image/trace_wide", trace_bindings, sizeof(TracePush)};
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};

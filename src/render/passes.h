@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The passes of the geometry-image tracer, declared: kernel, buffers, access. Back ends derive everything else from this.
+// The passes of the geometry-image tracer, declared: kernel, buffers, access. Back ends derive everything
+// else from this.
 #pragma once
 
 #include "lodestone/render/backend.h"
@@ -7,7 +8,8 @@
 namespace lodestone::render::passes {
 
 extern const PassDecl links, blend, rasterise, bounds_leaves, bounds;
-extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, occlude_threaded, occlude_octant, occlude_wide;
+extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, occlude_threaded, occlude_octant,
+    occlude_wide;
 extern const PassDecl mask, shade, accumulate, aov, resolve;
 
 }  // namespace lodestone::render::passes

@@ -70,12 +70,11 @@ struct Renderer::State {
   }
 
   std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
-    std::vector<BufferId> ids = {rays.hits.id(),         geometry.id(),         normal_map.id(),
-                                 tables.texel_map.id(),  tables.triangles.id(), positions.id(),
-                                 normals.id(),           tangents.id(),         tables.texcoords.id(),
-                                 tables.images.id(),     tables.srgb_table.id(), tables.charts.id(),
-                                 tables.parts.id(),      tables.materials.id(), tables.textures.id(),
-                                 frame.id()};
+    std::vector<BufferId> ids = {
+        rays.hits.id(),        geometry.id(),         normal_map.id(),        tables.texel_map.id(),
+        tables.triangles.id(), positions.id(),        normals.id(),           tangents.id(),
+        tables.texcoords.id(), tables.images.id(),    tables.srgb_table.id(), tables.charts.id(),
+        tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id()};
     ids.insert(ids.end(), more);
     return ids;
   }
@@ -87,7 +86,8 @@ struct Renderer::State {
   void trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps);
   void trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps);
   uint32_t take_pending();
-  bool render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count, const std::function<bool()>& interrupted);
+  bool render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count,
+                    const std::function<bool()>& interrupted);
 };
 
 Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -150,13 +150,15 @@ void Renderer::State::update(const scene::Pose& pose) {
   backend.upload(matrices.id(), std::as_bytes(std::span(frame_matrices)));
   const auto vertices = static_cast<uint32_t>(assembly.positions.size());
   run(passes::blend,
-      {tables.base_positions.id(), tables.base_normals.id(), tables.base_tangents.id(), tables.vertex_ranges.id(),
-       tables.morph_positions.id(), tables.morph_normals.id(), tables.morph_tangents.id(), tables.influences.id(),
-       weights.id(), matrices.id(), positions.id(), normals.id(), tangents.id()},
+      {tables.base_positions.id(), tables.base_normals.id(), tables.base_tangents.id(),
+       tables.vertex_ranges.id(), tables.morph_positions.id(), tables.morph_normals.id(),
+       tables.morph_tangents.id(), tables.influences.id(), weights.id(), matrices.id(), positions.id(),
+       normals.id(), tangents.id()},
       layout::BlendPush{vertices, assembly.has_tangents ? 1u : 0u}, vertices);
   const auto texels = static_cast<uint32_t>(atlas.texel_map.size());
   run(passes::rasterise,
-      {tables.texel_map.id(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
+      {tables.texel_map.id(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(),
+       normal_map.id()},
       layout::CountPush{texels}, texels);
   build_bounds();
 }
@@ -207,11 +209,12 @@ uint32_t Renderer::State::take_pending() {
 // All rays to their end, in as many dispatches as the budget of each needs.
 void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps) {
   const PassDecl* closest[] = {nullptr, &passes::trace_threaded, &passes::trace_octant, &passes::trace_wide};
-  const PassDecl* any[] = {nullptr, &passes::occlude_threaded, &passes::occlude_octant, &passes::occlude_wide};
+  const PassDecl* any[] = {nullptr, &passes::occlude_threaded, &passes::occlude_octant,
+                           &passes::occlude_wide};
   const bool occlusion = &rays == &shadow;
   const PassDecl& pass = *(occlusion ? any : closest)[static_cast<uint32_t>(traversal)];
-  const std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo.id(),    nodes_hi.id(),
-                                         geometry.id(),    links.id(),       rays.hits.id(),
+  const std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo.id(),   nodes_hi.id(),
+                                         geometry.id(),    links.id(),      rays.hits.id(),
                                          rays.states.id(), rays.steps.id(), pending.id()};
   const uint32_t zero = 0;
   layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget,
@@ -223,8 +226,8 @@ void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit
   } while (take_pending() != 0);
 }
 
-// The same where materials cut out texels: hits on those are passed through until none is left. The nearest hit has to be
-// found each time, also for shadow rays.
+// The same where materials cut out texels: hits on those are passed through until none is left. The nearest
+// hit has to be found each time, also for shadow rays.
 void Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps) {
   trace(rays, count, any_hit && !tables.has_masks, steps);
   if (!tables.has_masks) return;
@@ -243,7 +246,8 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t 
     const layout::RayPush push{first_ray, count, 0, 1, 0, 1};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     trace_masked(primary, count, false, true);
-    run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push, count);
+    run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
+        count);
   }
   for (uint32_t sample = 0; sample < settings.spp; ++sample) {
     layout::RayPush push{first_ray, count, sample, settings.spp == 1 ? 1u : 0u, 0, sample == 0 ? 1u : 0u};
@@ -253,14 +257,16 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t 
       if (interrupted && interrupted()) return false;
       push.light = light;
       run(passes::shade,
-          surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
+          surface_buffers(
+              primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
           push, count);
       trace_masked(shadow, count, true, false);
-      run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count}, count);
+      run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
+          count);
     }
   }
-  run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()}, layout::ResolvePush{first_ray, count},
-      count);
+  run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()},
+      layout::ResolvePush{first_ray, count}, count);
   return true;
 }
 
@@ -296,13 +302,20 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
     add_aovs(s.settings, quads, result.linear);
   }
   result.passes = s.backend.finish();
-  result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.wall_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 
-std::vector<PassRecord> Renderer::setup_passes() const { return state_->setup; }
-Traversal Renderer::traversal() const { return state_->traversal; }
-void Renderer::update(const scene::Pose& pose) { state_->update(pose); }
+std::vector<PassRecord> Renderer::setup_passes() const {
+  return state_->setup;
+}
+Traversal Renderer::traversal() const {
+  return state_->traversal;
+}
+void Renderer::update(const scene::Pose& pose) {
+  state_->update(pose);
+}
 
 void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
   State& s = *state_;
@@ -311,7 +324,9 @@ void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
   s.backend.upload(s.loaded.rays.id(), std::as_bytes(std::span(rays)));
 }
 
-void Renderer::trace_loaded() { state_->trace(state_->loaded, state_->loaded_rays, false, false); }
+void Renderer::trace_loaded() {
+  state_->trace(state_->loaded, state_->loaded_rays, false, false);
+}
 
 std::vector<glm::uvec4> Renderer::hits() {
   std::vector<glm::uvec4> hits(state_->loaded_rays);

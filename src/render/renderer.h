@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frame: which passes run, in what order, on which buffers. Knows a Backend and nothing of Vulkan or threads.
+// The frame: which passes run, in what order, on which buffers. Knows a Backend and nothing of Vulkan or
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -28,21 +29,21 @@ struct Settings {
   uint32_t seed = 0;
   Traversal traversal = Traversal::automatic;
   ViewTransform view = ViewTransform::filmic;
-  float exposure = 0;                // stops
-  std::vector<std::string> aovs;     // of: depth normal albedo uv id lod steps
-  uint32_t loop_budget = 4000;       // traversal steps of one dispatch; see trace.h
+  float exposure = 0;             // stops
+  std::vector<std::string> aovs;  // of: depth normal albedo uv id lod steps
+  uint32_t loop_budget = 4000;    // traversal steps of one dispatch; see trace.h
 };
 
-// A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y up,
-// x and y in [-1, 1] (orthographic: parallel to forward, from origin + x right + y up).
+// A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y
+// up, x and y in [-1, 1] (orthographic: parallel to forward, from origin + x right + y up).
 struct View {
   std::string name;
   glm::vec3 origin{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
   bool perspective = true;
 };
 
-// `name`: a camera of the scene, a number, or "auto": one that frames `bounds` from the front, a little from above.
-// Empty: the first camera of the scene, else auto. Throws Error(usage) listing the cameras.
+// `name`: a camera of the scene, a number, or "auto": one that frames `bounds` from the front, a little from
+// above. Empty: the first camera of the scene, else auto. Throws Error(usage) listing the cameras.
 View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
                const scene::Bounds& bounds, uint32_t width, uint32_t height);
 
@@ -68,8 +69,8 @@ class Renderer {
   std::vector<PassRecord> setup_passes() const;  // the records of `links`
   Traversal traversal() const;                   // what `automatic` became
 
-  // The pieces of a frame, for benchmarks: blend, rasterise and bounds; then given rays (two vec4 each: origin and
-  // tmin, direction and tmax) against the hierarchy, closest hit, results t u v primitive.
+  // The pieces of a frame, for benchmarks: blend, rasterise and bounds; then given rays (two vec4 each:
+  // origin and tmin, direction and tmax) against the hierarchy, closest hit, results t u v primitive.
   void update(const scene::Pose& pose);
   void load_rays(const std::vector<glm::vec4>& rays);
   void trace_loaded();
@@ -82,8 +83,8 @@ class Renderer {
 
 const char* to_string(Traversal traversal);
 
-// A back end that runs every pass on `device` and, on the very inputs the device had, on `reference`, and compares
-// what they wrote, word by word.
+// A back end that runs every pass on `device` and, on the very inputs the device had, on `reference`, and
+// compares what they wrote, word by word.
 struct PassDifference {
   std::string pass, buffer;
   uint64_t words = 0, different = 0;  // words compared, words that differ

@@ -110,8 +110,8 @@ void upload_shading(SceneTables& tables, Backend& backend, const scene::Scene& s
   for (const scene::Image& image : scene.images) {
     offsets.push_back(static_cast<uint32_t>(texels.size()));
     for (size_t i = 0; i + 4 <= image.rgba.size(); i += 4) {
-      texels.push_back(uint32_t(image.rgba[i]) | uint32_t(image.rgba[i + 1]) << 8 | uint32_t(image.rgba[i + 2]) << 16 |
-                       uint32_t(image.rgba[i + 3]) << 24);
+      texels.push_back(uint32_t(image.rgba[i]) | uint32_t(image.rgba[i + 1]) << 8 |
+                       uint32_t(image.rgba[i + 2]) << 16 | uint32_t(image.rgba[i + 3]) << 24);
     }
   }
   tables.images = make_buffer(backend, "images", 4, texels);

@@ -15,7 +15,8 @@ using glm::vec3;
 View scene_view(const scene::Scene& scene, const scene::Pose& pose, uint32_t node, float aspect) {
   const scene::Camera& camera = scene.cameras[scene.nodes[node].camera];
   const glm::mat4& world = pose.node_world[node];
-  const vec3 x = glm::normalize(vec3(world[0])), y = glm::normalize(vec3(world[1])), z = glm::normalize(vec3(world[2]));
+  const vec3 x = glm::normalize(vec3(world[0])), y = glm::normalize(vec3(world[1])),
+             z = glm::normalize(vec3(world[2]));
   View view;
   view.name = camera.name.empty() ? scene.nodes[node].name : camera.name;
   view.origin = vec3(world[3]);
@@ -43,7 +44,8 @@ View auto_view(const scene::Bounds& bounds, float aspect) {
   const float half_x = half * aspect;
   float distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const vec3 p = vec3(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z) - center;
+    const vec3 p =
+        vec3(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z) - center;
     const float along = glm::dot(p, back);
     distance = std::max(distance, along + std::abs(glm::dot(p, right)) / half_x);
     distance = std::max(distance, along + std::abs(glm::dot(p, up)) / half);
@@ -60,9 +62,15 @@ View auto_view(const scene::Bounds& bounds, float aspect) {
 layout::LightRecord light_record(const scene::Light& light, const glm::mat4& world) {
   layout::LightRecord record{};
   switch (light.kind) {
-    case scene::Light::Kind::directional: record.kind = layout::light_directional; break;
-    case scene::Light::Kind::point: record.kind = layout::light_point; break;
-    case scene::Light::Kind::spot: record.kind = layout::light_spot; break;
+    case scene::Light::Kind::directional:
+      record.kind = layout::light_directional;
+      break;
+    case scene::Light::Kind::point:
+      record.kind = layout::light_point;
+      break;
+    case scene::Light::Kind::spot:
+      record.kind = layout::light_spot;
+      break;
   }
   record.position = vec3(world[3]);
   record.direction = -glm::normalize(vec3(world[2]));
@@ -88,16 +96,18 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
   for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
     if (scene.nodes[node].camera == scene::none) continue;
     const View view = scene_view(scene, pose, node, aspect);
-    if (name.empty() || view.name == name || scene.nodes[node].name == name || (numeric && index == number)) return view;
+    if (name.empty() || view.name == name || scene.nodes[node].name == name || (numeric && index == number))
+      return view;
     known += (known.empty() ? "" : ", ") + (view.name.empty() ? std::to_string(index) : view.name);
     ++index;
   }
   if (name.empty()) return auto_view(bounds, aspect);
-  fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto", known.empty() ? "none" : known);
+  fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto",
+       known.empty() ? "none" : known);
 }
 
-std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose, const View& view,
-                                              scene::Sky& sky) {
+std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose,
+                                              const View& view, scene::Sky& sky) {
   std::vector<layout::LightRecord> lights;
   for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
     if (scene.nodes[node].light == scene::none) continue;

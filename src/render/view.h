@@ -9,9 +9,9 @@
 
 namespace lodestone::render {
 
-// Every light that is not black, the sky last where there is one. A scene that says nothing about light gets a soft sky and
-// a key light from above the camera's left shoulder.
-std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose, const View& view,
-                                              scene::Sky& sky);
+// Every light that is not black, the sky last where there is one. A scene that says nothing about light gets
+// a soft sky and a key light from above the camera's left shoulder.
+std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose,
+                                              const View& view, scene::Sky& sky);
 
 }  // namespace lodestone::render

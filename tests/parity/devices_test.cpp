@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Every pass of a frame on every device against the CPU, to the bit; and that a fault in any pass is found
+// there.
+#include <gtest/gtest.h>
+
+#include "lodestone/cpu_fallback/cpu_backend.h"
+#include "lodestone/test_support/devices.h"
+#include "lodestone/test_support/ready_scene.h"
+
+namespace lodestone::test {
+namespace {
+
+render::Settings small_settings() {
+  render::Settings settings;
+  settings.width = 72;  // not a multiple of a tile
+  settings.height = 51;
+  settings.spp = 2;
+  settings.aovs = {"depth", "normal", "albedo", "uv", "id", "lod", "steps"};
+  return settings;
+}
+
+// Renders one frame on the device with the CPU beside it.
+std::vector<render::PassDifference> differences(const ReadyScene& ready, const std::string& device,
+                                                float time, const render::Settings& settings,
+                                                std::optional<render::Fault> fault = {}) {
+  render::ParityBackend both(open(device, {.validate = device != "cpu"}), cpu_fallback::make_cpu_backend({}),
+                             fault);
+  render::Renderer renderer(both, ready.scene, ready.assembly, ready.atlas, settings);
+  const scene::Pose pose = ready.pose(time);
+  const auto bounds = scene::pose_bounds(ready.scene, pose);
+  renderer.render(pose, render::find_view(ready.scene, pose, "", bounds, settings.width, settings.height));
+  return both.differences();
+}
+
+class Devices : public testing::TestWithParam<std::string> {};
+
+void expect_equal(const ReadyScene& ready, const std::string& device, const render::Settings& settings) {
+  for (const float time : {0.0f, 0.6f}) {
+    const auto rows = differences(ready, device, time, settings);
+    EXPECT_GE(rows.size(), 20u);
+    for (const auto& row : rows) {
+      EXPECT_EQ(row.different, 0u) << row.pass << " " << row.buffer << " word " << row.first << std::hex
+                                   << ": " << row.device_value << " against " << row.reference_value;
+    }
+  }
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuOnSpheresByOctants) {
+  render::Settings settings = small_settings();
+  settings.traversal = render::Traversal::octant;
+  expect_equal(ReadyScene("builtin:spheres"), GetParam(), settings);
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuOnTerrainByLinks) {
+  render::Settings settings = small_settings();
+  settings.traversal = render::Traversal::threaded;
+  expect_equal(ReadyScene("builtin:terrain"), GetParam(), settings);
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuOnAnExactAtlas) {
+  expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact), GetParam(), small_settings());
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuOnMorphsSkinsAndTextures) {
+  const auto file = data_file("RobotExpressive.glb");
+  if (!file) GTEST_SKIP() << "shared data are absent";
+  expect_equal(ReadyScene(*file), GetParam(), small_settings());
+}
+
+TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
+  render::Settings settings = small_settings();
+  for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+    settings.traversal = traversal;
+    settings.loop_budget = 7;
+    expect_equal(ReadyScene("builtin:tiny"), GetParam(), settings);
+    settings.loop_budget = 40;
+    expect_equal(ReadyScene("builtin:spheres"), GetParam(), settings);
+  }
+}
+
+TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
+  if (GetParam() == "cpu") GTEST_SKIP() << "a fault of the device needs a device";
+  const ReadyScene ready("builtin:tiny");
+  for (const char* pass : {"blend", "rasterise", "bounds", "camera", "trace", "aov", "shade", "occlude",
+                           "accumulate", "resolve"}) {
+    const auto rows = differences(ready, GetParam(), 0.3f, small_settings(), render::Fault{pass, 70});
+    std::string first;
+    for (const auto& row : rows) {
+      if (row.different != 0 && first.empty()) first = row.pass;
+    }
+    EXPECT_EQ(first, pass);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Devices, testing::ValuesIn(device_names()),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace
+}  // namespace lodestone::test

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The software devices of a test machine. Every one that is there must be used; SwiftShader may be absent.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lodestone/render/backend.h"
+
+namespace lodestone::test {
+
+// "cpu", "llvmpipe" and, where $LODESTONE_SWIFTSHADER_ICD names its driver file, "SwiftShader".
+std::vector<std::string> device_names();
+
+// Throws Error(device).
+std::unique_ptr<render::Backend> open(const std::string& name, const render::BackendOptions& options = {});
+
+}  // namespace lodestone::test
