@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/height_field.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "lodestone/base/parallel.h"
 
 namespace lodestone::scene {
 namespace {
@@ -19,13 +21,9 @@ class HeightField {
     mesh.positions.resize(count);
     mesh.normals.resize(count);
     mesh.texcoords[0].resize(count);
-    tbb::parallel_for(0u, height_, [&](uint32_t y) {
-      for (uint32_t x = 0; x < width_; ++x) {
-        const size_t vertex = size_t(y) * width_ + x;
-        mesh.positions[vertex] = {centred(x, width_), at(x, y), -centred(y, height_)};
-        mesh.normals[vertex] = normal(x, y);
-        mesh.texcoords[0][vertex] = {share(x, width_), share(height_ - 1 - y, height_)};
-      }
+    constexpr uint64_t rows_at_once = 16;
+    parallel_for(height_, rows_at_once, [&](uint64_t begin, uint64_t end) {
+      for (uint64_t y = begin; y < end; ++y) fill_row(static_cast<uint32_t>(y), mesh);
     });
   }
 
@@ -47,6 +45,15 @@ class HeightField {
   }
 
  private:
+  void fill_row(uint32_t y, Mesh& mesh) const {
+    for (uint32_t x = 0; x < width_; ++x) {
+      const size_t vertex = size_t(y) * width_ + x;
+      mesh.positions[vertex] = {centred(x, width_), at(x, y), -centred(y, height_)};
+      mesh.normals[vertex] = normal(x, y);
+      mesh.texcoords[0][vertex] = {share(x, width_), share(height_ - 1 - y, height_)};
+    }
+  }
+
   // Rows here count from the near side, those of the samples from the far one.
   float at(uint32_t x, uint32_t y) const { return samples_[size_t(height_ - 1 - y) * width_ + x]; }
 

@@ -25,7 +25,7 @@ namespace {
 constexpr uint64_t max_file_bytes = uint64_t(1) << 31;
 // Deflate, which packs best of what is in use, makes at most 1032 bytes of one. The allowance is for small
 // images of a single value in formats that store those in almost nothing.
-constexpr uint64_t max_expansion = 1032, expansion_allowance = uint64_t(1) << 24;
+constexpr uint64_t max_expansion = 1032, expansion_allowance = uint64_t(1) << 20;
 
 struct Samples {
   uint32_t width = 0, height = 0;

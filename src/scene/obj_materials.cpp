@@ -138,6 +138,7 @@ class MtlParser {
     // OBJ counts v from the bottom: v_obj = 1 - v, and the scaled and shifted v_obj is turned back likewise.
     texture.u_row = {scale.x, 0, offset.x};
     texture.v_row = {0, scale.y, 1 - scale.y - offset.y};
+    if (!std::isfinite(texture.v_row.z)) reader_.fail("the options -s and -o are out of range; correct them");
   }
 
   void parse_option(const MapOption& option, Texture& texture, glm::vec2& scale, glm::vec2& offset) {

@@ -2,6 +2,8 @@
 // What every loader has to do with any bytes whatever: give a valid scene, or throw Error(bad_input).
 #pragma once
 
+#include <unistd.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
@@ -32,8 +35,9 @@ inline std::string file_name(const std::string& format) {
   return format == "height_map" ? "fuzz.png" : "fuzz." + format;
 }
 
-// True where the bytes are a valid scene, false where the loader says what is wrong with them. Anything else
-// is a fault: another exit code, an exception that is no Error, a scene that `validate` refuses.
+// True where the bytes are a valid scene, false where they are refused as bad input: by the loader, or for
+// glTF by `validate`, which checks what such a file states about cameras and lights. Throws for any fault:
+// another exit code, an exception that is no Error, a mesh that `validate` refuses.
 inline bool load_bytes(const std::string& format, std::span<const std::byte> bytes,
                        const std::filesystem::path& folder) {
   log::set_level(log::Level::quiet);
@@ -52,16 +56,22 @@ inline bool load_bytes(const std::string& format, std::span<const std::byte> byt
   try {
     scene::validate(loaded);
   } catch (const Error& error) {
+    const bool is_gltf = format == "gltf" || format == "glb";
+    if (is_gltf && error.code() == ExitCode::bad_input) return false;
     throw std::logic_error(std::string("the loader returned an invalid scene: ") + error.what());
   }
   return true;
 }
 
-// A folder for the bytes, removed at the end of the process. TMPDIR says where; a RAM disk is fastest.
+// A folder for the bytes, removed in the end: in TMPDIR, else on the RAM disk where there is one, which is
+// many times faster for so many small files.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lodestone-fuzz-XXXXXX").string();
+    const std::filesystem::path ram_disk = "/dev/shm";
+    const bool use_ram_disk = std::getenv("TMPDIR") == nullptr && ::access(ram_disk.c_str(), W_OK) == 0;
+    const std::filesystem::path parent = use_ram_disk ? ram_disk : std::filesystem::temp_directory_path();
+    std::string name = (parent / "lodestone-fuzz-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
     path_ = name;
   }

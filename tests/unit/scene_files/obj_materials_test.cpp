@@ -175,8 +175,8 @@ TEST_F(ObjMaterial, ImagesOutsideTheFolderAreNotRead) {
 
 TEST_F(ObjMaterial, MalformedNumbersNameTheLibraryAndItsLine) {
   const std::filesystem::path obj = folder_.write("m.obj", model("mtllib m.mtl\n", {"a"}));
-  for (const std::string broken :
-       {"Kd 1 0", "Kd 1 x 0", "Ke nan 0 0", "Ns", "Pr inf", "map_Kd -s x 1 1 t.png"}) {
+  for (const std::string broken : {"Kd 1 0", "Kd 1 x 0", "Ke nan 0 0", "Ns", "Pr inf",
+                                   "map_Kd -s x 1 1 t.png", "map_Kd -s 1 3e38 -o 0 3e38 t.png"}) {
     const std::filesystem::path library = folder_.write("m.mtl", "newmtl a\n\n" + broken + "\n");
     try {
       load_obj(obj);
