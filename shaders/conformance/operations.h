@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What "one arithmetic" rests on: every operation that kernels use, applied to bit patterns. Compiled as GLSL by the
-// conformance kernel and as C++ by whoever compares with it.
+// What "one arithmetic" rests on: every operation that kernels use, applied to bit patterns. Compiled as GLSL
+// by the conformance kernel and as C++ by whoever compares with it.
 #ifndef LODESTONE_CONFORMANCE_OPERATIONS_H
 #define LODESTONE_CONFORMANCE_OPERATIONS_H
 
@@ -20,14 +20,14 @@ CONST uint op_less = 7u;
 CONST uint op_less_equal = 8u;
 CONST uint op_equal = 9u;
 CONST uint op_not_equal = 10u;
-CONST uint op_smaller = 11u;   // b < a ? b : a
-CONST uint op_larger = 12u;    // a < b ? b : a
+CONST uint op_smaller = 11u;  // b < a ? b : a
+CONST uint op_larger = 12u;   // a < b ? b : a
 CONST uint op_multiply_add = 13u;
 CONST uint op_dot = 14u;
 CONST uint op_cross = 15u;
-CONST uint op_to_uint = 16u;   // of |x| below 2^31
-CONST uint op_to_int = 17u;    // of |x| below 2^31
-CONST uint op_from_uint = 18u; // of values below 2^24
+CONST uint op_to_uint = 16u;    // of |x| below 2^31
+CONST uint op_to_int = 17u;     // of |x| below 2^31
+CONST uint op_from_uint = 18u;  // of values below 2^24
 CONST uint op_from_int = 19u;
 CONST uint op_round_trip = 20u;
 CONST uint op_divide_uint = 21u;
@@ -41,9 +41,11 @@ CONST uint op_log2 = 28u;
 CONST uint op_cos_sin = 29u;
 CONST uint op_count = 30u;
 
-// A denormal, and the smallest normal number with it (a device that flushes decides before it rounds), as a zero of the
-// same sign.
-FN uint flush_bits(uint bits) { return (bits & 0x7fffffffu) <= 0x00800000u ? bits & 0x80000000u : bits; }
+// A denormal, and the smallest normal number with it (a device that flushes decides before it rounds), as a
+// zero of the same sign.
+FN uint flush_bits(uint bits) {
+  return (bits & 0x7fffffffu) <= 0x00800000u ? bits & 0x80000000u : bits;
+}
 
 FN uint mix_bits(vec3 v) {
   return floatBitsToUint(v.x) ^ (floatBitsToUint(v.y) * 3u) ^ (floatBitsToUint(v.z) * 5u);
@@ -54,7 +56,8 @@ FN uint apply_integer(uint op, uvec4 u) {
   if (op == op_from_int) return floatBitsToUint(float(int(u.x)));
   if (op == op_divide_uint) return u.x / (u.y | 1u) ^ u.x % (u.z | 1u);
   if (op == op_shift_int) return uint(int(u.x) >> (u.y & 31u));
-  return uint(findMSB(u.x)) ^ (uint(findLSB(u.y)) << 8u) ^ (uint(bitCount(u.z)) << 16u) ^ bitfieldReverse(u.w);
+  return uint(findMSB(u.x)) ^ (uint(findLSB(u.y)) << 8u) ^ (uint(bitCount(u.z)) << 16u) ^
+         bitfieldReverse(u.w);
 }
 
 FN uint apply_function(uint op, float x, float y, float z) {
@@ -74,7 +77,9 @@ FN uint apply_comparison(uint op, float x, float y) {
   return floatBitsToUint(max2(x, y));
 }
 
-FN bool in_int_range(float x) { return x > -2147483648.0f && x < 2147483648.0f; }
+FN bool in_int_range(float x) {
+  return x > -2147483648.0f && x < 2147483648.0f;
+}
 
 // The result of operation `op` on the bits of up to four operands.
 FN uint apply_operation(uint op, uvec4 u) {

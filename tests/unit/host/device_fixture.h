@@ -28,7 +28,7 @@ enum class Driver { lavapipe, swiftshader };
 inline std::optional<std::string> driver_file(Driver driver) {
   if (driver == Driver::lavapipe) return "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
   const char* file = std::getenv("LODESTONE_SWIFTSHADER_ICD");
-  return file == nullptr ? std::nullopt : std::optional<std::string>(file);
+  return file == nullptr || *file == 0 ? std::nullopt : std::optional<std::string>(file);
 }
 
 // A driver, and the ways to hold buffers that tests should not tell apart.

@@ -33,7 +33,7 @@ const bool pinned = [] {
                               "libVkLayer_MESA_device_select.so"}) {
     pin(library);
   }
-  if (const char* file = std::getenv("LODESTONE_SWIFTSHADER_ICD")) {
+  if (const char* file = std::getenv("LODESTONE_SWIFTSHADER_ICD"); file != nullptr && *file != 0) {
     pin((std::filesystem::path(file).parent_path() / "libvk_swiftshader.so").c_str());
   }
   return true;
