@@ -39,8 +39,8 @@ void light_portrait(Scene& scene) {
   rim.name = "Rim";
   rim.kind = Light::Kind::point;
   rim.color = {0.50f, 0.72f, 1};
-  rim.intensity = 90;
-  add_light(scene, rim, {-3.4f, 1.8f, -2.6f}, {0, 0, 0});
+  rim.intensity = 60;
+  add_light(scene, rim, {-2.6f, 2.4f, -3.6f}, {0, 0, 0});
   Light fill;
   fill.name = "Fill";
   fill.kind = Light::Kind::point;

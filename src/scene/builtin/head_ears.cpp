@@ -41,7 +41,7 @@ BrowSection brow_section(float along) {
   BrowSection section;
   section.middle = {glm::mix(0.13f, 0.66f, along), 0.435f + 0.10f * arch - 0.03f * along};
   const float taper = std::sqrt(std::max(1 - std::pow(2 * along - 1, 4.0f), 0.0f));
-  section.width = 0.012f + 0.048f * taper * (1 - 0.45f * along);
+  section.width = 0.010f + 0.050f * taper * (1 - 0.60f * along);
   section.height = 0.034f * taper;
   return section;
 }
@@ -64,9 +64,7 @@ Mesh head_ears(uint32_t material) {
   }
   add_part(mesh, 0, material);
   sculpt(mesh, [&](const Expression&) { return positions; });
-  for (const glm::vec3& p : mesh.positions)
-    mesh.colors.emplace_back(glm::mix(glm::vec3(0.74f, 0.33f, 0.24f), glm::vec3(0.75f, 0.36f, 0.26f), p.y),
-                             1);
+  mesh.colors.assign(mesh.positions.size(), glm::vec4(0.74f, 0.33f, 0.24f, 1));
   return mesh;
 }
 
@@ -86,7 +84,10 @@ Mesh head_brows(uint32_t material) {
         const float angle = 2 * pi * float(sample.column) / columns;
         const BrowSection section = brow_section(side > 0 ? along : 1 - along);
         const Aim aim = section.middle + Aim{0, section.width * std::cos(angle)};
-        const float lift = section.height * std::sin(angle) + 0.004f;
+        // Combed upwards and outwards.
+        const float strand =
+            1 + 0.10f * std::sin(60 * (side > 0 ? along : 1 - along) + 2.5f * std::cos(angle));
+        const float lift = section.height * std::sin(angle) * strand + 0.004f;
         out.push_back(snap(skin_point({side * aim.azimuth, aim.elevation}, e, lift)));
       }
     return out;

@@ -81,7 +81,7 @@ Aim skin_slide(Aim rest, const Expression& e) {
   if (e.brow_up != 0 || e.brow_down != 0) {
     const float brow = both(rest, {0.38f, 0.50f}, {0.62f, 0.36f});
     add(e.brow_up * brow, 0, 0.12f);
-    add(e.brow_down * brow, -0.05f * std::min(std::abs(rest.azimuth) / 0.1f, 1.0f), -0.09f);
+    add(e.brow_down * brow, -0.05f * glm::smoothstep(0.0f, 0.25f, std::abs(rest.azimuth)), -0.09f);
   }
   if (e.grin != 0 || e.jaw != 0) {
     const float lips = bump(rest, {0, corner.elevation}, {0.60f, 0.42f}) * mouth_side(rest);
@@ -98,7 +98,7 @@ float skin_swell(Aim rest, const Expression& e) {
   if (e.smile != 0) swell += e.smile * 0.05f * both(rest, {0.52f, -0.20f}, {0.28f, 0.22f});
   if (e.puff != 0) swell += e.puff * 0.13f * both(rest, {0.56f, -0.42f}, {0.45f, 0.36f});
   if (e.pucker != 0) swell += e.pucker * 0.10f * both(rest, {0, -0.47f}, {0.34f, 0.30f});
-  if (e.brow_down != 0) swell += e.brow_down * 0.03f * both(rest, {0.16f, 0.40f}, {0.2f, 0.15f});
+  if (e.brow_down != 0) swell += e.brow_down * 0.02f * both(rest, {0.17f, 0.42f}, {0.25f, 0.22f});
   if (e.sneer != 0) swell += e.sneer * 0.035f * both(rest, {0.17f, -0.14f}, {0.16f, 0.16f});
   return swell;
 }

@@ -13,7 +13,7 @@ using glm::vec3;
 
 constexpr float pi = 3.14159265f;
 constexpr glm::ivec3 cap_cells(30, 18, 30);
-constexpr uint32_t lock_columns = 14, lock_rows = 19;
+constexpr uint32_t lock_columns = 12, lock_rows = 18;
 
 // Elevation of the hairline by azimuth: forehead, temple, sideburn, behind the ear, nape.
 float hairline(float azimuth) {

@@ -15,8 +15,8 @@ glm::vec2 lid_edge(float across, bool upper, float blink, const Expression& e) {
   constexpr float half_width = 0.74f;
   const float arch = std::pow(std::max(1 - std::abs(across * across * across), 0.0f), 0.62f);
   const float follow = 0.16f * e.look_up;  // lids go with the gaze
-  const float open = upper ? 0.47f + 0.20f * e.wide + follow - 0.10f * e.brow_down
-                           : -0.42f - 0.10f * e.wide + 0.10f * e.smile + 0.5f * follow;
+  const float open =
+      upper ? 0.47f + 0.20f * e.wide + follow - 0.06f * e.brow_down : -0.42f - 0.10f * e.wide + 0.5f * follow;
   const float closed = -0.20f * (1 - across * across);
   // The upper lid is highest towards the nose, the lower one lowest towards the temple.
   const float lean = (upper ? -0.07f : 0.05f) * across * (1 - across * across) * (1 - blink);
@@ -57,22 +57,20 @@ void HeadSkin::pose_eye(const Ring& ring, float side, const Expression& e,
   const glm::vec3 centre = glm::vec3(side, 1, 1) * eye_centre;
   for (uint32_t column = 0; column < ring.border.size(); ++column) {
     const Seam seam = ring_seam(ring, column);
-    const Aim rest = aims_[ring.border[column]], start = rest + skin_slide(rest, e);
-    const Aim edge = edge_aim(seam.turn, seam.upper, side, e);
-    const float swell = skin_swell(rest, e), share = jaw_share(rest);
+    const uint32_t last = ring_vertex(ring, column, skin_rows - 1);
+    const Aim shift = edge_aim(seam.turn, seam.upper, side, e) - aims_[last];
     for (uint32_t row = 1; row < skin_rows; ++row) {
-      // What moves the face fades towards the edge of the lid, which keeps to the eyeball: a soft rim.
+      // What moves the face fades towards the edge of the lid, which keeps to the eyeball.
       const uint32_t v = ring_vertex(ring, column, row);
-      const float s = row_share(row);
-      const Aim aim = start + s * (edge - start);
+      const float s = row_share(row), face = 1 - glm::smoothstep(0.2f, 1.0f, s);
+      const Aim aim = aims_[v] + face * skin_slide(aims_[v], e) + s * shift;
       const float rim = 0.010f * bump((float(row) / float(skin_rows - 1) - 0.97f) / 0.25f);
-      const float lift = (1 - s) * (1 - s) * swell + rim;
+      const float lift = face * skin_swell(aims_[v], e) + rim;
       glm::vec3 p = face_point(v, aim);
       if (lift != 0) p += lift * face_normal(v, aim, p);
-      out[v] = turn_jaw(p, (1 - s) * share, e);
+      out[v] = turn_jaw(p, face * jaw_share(aims_[v]), e);
     }
     // Through the slit: the first two rows belong to the lid, the others rest inside the eyeball.
-    const uint32_t last = ring_vertex(ring, column, skin_rows - 1);
     constexpr std::array<float, 5> depths = {0.955f, 0.87f, 0.74f, 0.62f, 0.5f};
     for (uint32_t k = 0; k < depths.size(); ++k)
       out[ring_vertex(ring, column, skin_rows + k)] =

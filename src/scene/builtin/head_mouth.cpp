@@ -74,8 +74,8 @@ void sample(const ZippedTube& tube, std::vector<glm::vec3>& out,
 Mesh head_teeth(uint32_t material) {
   Mesh mesh;
   mesh.name = "teeth";
-  const ZippedTube upper(16, 111);
-  const ZippedTube lower(16, 111, uint32_t(upper.samples().size()));
+  const ZippedTube upper(12, 101);
+  const ZippedTube lower(12, 101, uint32_t(upper.samples().size()));
   add_grid(mesh, upper.chart());
   add_grid(mesh, lower.chart());
   add_part(mesh, 0, material);

@@ -103,7 +103,8 @@ Aim aim_at(vec3 point) {
 }
 
 float head_distance(vec3 point) {
-  const vec3 p = mirrored(point);
+  // Rounded where the mirror images meet, so that no crease runs down the middle of the face.
+  const vec3 p(std::sqrt(point.x * point.x + 0.0012f), point.y, point.z);
   return bridge(eye_region(bones(p), p), p);
 }
 

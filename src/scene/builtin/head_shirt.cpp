@@ -10,7 +10,7 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr glm::ivec3 body_cells(32, 14, 18);
-constexpr uint32_t collar_around = 144, collar_section = 16;
+constexpr uint32_t collar_around = 144, collar_section = 12;
 
 glm::vec3 body_point(glm::vec3 d) {
   // Broader than deep, sloping from the neck to the shoulders, cut flat below.
