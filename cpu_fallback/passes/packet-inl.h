@@ -89,8 +89,9 @@ struct Shearing {
   }
 };
 
-HWY_ATTR inline void test_quad(TraceBlock& block, Packet& packet, uint32_t address, uint32_t lane,
-                               Mask entered, Floats enter) {
+template <class Block>
+HWY_ATTR inline void test_quad(Block& block, Packet& packet, uint32_t address, uint32_t lane, Mask entered,
+                               Floats enter) {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
   const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
@@ -115,10 +116,11 @@ HWY_ATTR inline void test_quad(TraceBlock& block, Packet& packet, uint32_t addre
   hn::Store(test.best_u, d, packet.u + lane);
   hn::Store(test.best_v, d, packet.v + lane);
   hn::Store(test.best_primitive, du, packet.primitive + lane);
-  block.count_quad(static_cast<uint32_t>(hn::CountTrue(d, entered)));
+  if (Block::counting) block.count_quad(static_cast<uint32_t>(hn::CountTrue(d, entered)));
 }
 
-HWY_ATTR inline void load_packet(const TraceBlock& block, uint32_t first, uint32_t count, Packet& packet) {
+template <class Block>
+HWY_ATTR inline void load_packet(const Block& block, uint32_t first, uint32_t count, Packet& packet) {
   for (uint32_t lane = 0; lane < packet_rays; ++lane) {
     layout::Ray ray = block.ray(first + std::min(lane, count - 1));
     if (lane >= count) ray.tmax = -1;
@@ -141,7 +143,8 @@ HWY_ATTR inline void load_packet(const TraceBlock& block, uint32_t first, uint32
   }
 }
 
-HWY_ATTR inline void trace_packet(TraceBlock& block, uint32_t first, uint32_t count) {
+template <class Block>
+HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) {
   const Lanes d;
   const uint32_t width = static_cast<uint32_t>(hn::Lanes(d));
   Packet packet;
@@ -172,14 +175,14 @@ HWY_ATTR inline void trace_packet(TraceBlock& block, uint32_t first, uint32_t co
       const Mask entered = hn::Le(enter, exit);
       if (hn::AllFalse(d, entered)) continue;
       inside = true;
-      active += static_cast<uint32_t>(hn::CountTrue(d, entered));
+      if (Block::counting) active += static_cast<uint32_t>(hn::CountTrue(d, entered));
       if (leaf) {
         test_quad(block, packet, address, lane, entered, enter);
       } else if (lane + width < packet_rays) {
         break;  // one ray that enters takes all of them along
       }
     }
-    block.count_step(packet_rays, active, packet_rays);
+    block.count_step(1, packet_rays, active, packet_rays);
     ++visits;
     walk = inside && !leaf ? layout::walk_down(walk, (block.order(address) >> (2 * octant)) & 3u)
                            : layout::walk_on(walk);

@@ -27,8 +27,9 @@ struct RaySlabs {
 
 // Tests `count` (at most 16) nodes from `address` on; returns the bits of those entered before `tmax` and
 // their distances.
-HWY_ATTR inline uint32_t test_boxes(const TraceBlock& block, const RaySlabs& ray, uint32_t address,
-                                    uint32_t count, float tmax, float* HWY_RESTRICT enter) {
+template <class Block>
+HWY_ATTR inline uint32_t test_boxes(const Block& block, const RaySlabs& ray, uint32_t address, uint32_t count,
+                                    float tmax, float* HWY_RESTRICT enter) {
   const Boxes d;
   const layout::Slabs& s = ray.s;
   const auto tmin = hn::Set(d, ray.tmin), limit = hn::Set(d, tmax);
@@ -81,15 +82,51 @@ HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t 
   return size;
 }
 
-HWY_ATTR inline void test_quad(TraceBlock& block, const layout::Ray& ray, const layout::Shear& shear,
+// layout::intersect_quad with the four corners in four lanes.
+template <class Block>
+HWY_ATTR inline void test_quad(Block& block, const layout::Ray& ray, const layout::Shear& shear,
                                uint32_t address, float enter, layout::Hit& best) {
   const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
+  block.count_quad(1);
+#if HWY_TARGET == HWY_SCALAR
   layout::intersect_quad(block.texel(texel), block.texel(texel + 1), block.texel(texel + stride),
                          block.texel(texel + stride + 1), ray, shear, enter, texel, best);
-  block.count_quad(1);
+#else
+  const hn::FixedTag<float, 4> d;
+  const auto a = hn::LoadU(d, block.texels(texel)), b = hn::LoadU(d, block.texels(texel + 1));
+  const auto c = hn::LoadU(d, block.texels(texel + stride)),
+             e = hn::LoadU(d, block.texels(texel + stride + 1));
+  const auto ab = hn::InterleaveLower(d, a, b), ce = hn::InterleaveLower(d, c, e);
+  const auto x = hn::Sub(hn::ConcatLowerLower(d, ce, ab), hn::Set(d, ray.origin.x));
+  const auto y = hn::Sub(hn::ConcatUpperUpper(d, ce, ab), hn::Set(d, ray.origin.y));
+  const auto z = hn::Sub(hn::ConcatLowerLower(d, hn::InterleaveUpper(d, c, e), hn::InterleaveUpper(d, a, b)),
+                         hn::Set(d, ray.origin.z));
+  const auto depth = shear.axis == 0 ? x : (shear.axis == 1 ? y : z);
+  const auto px =
+      hn::Sub(shear.axis == 0 ? y : (shear.axis == 1 ? z : x), hn::Mul(hn::Set(d, shear.x), depth));
+  const auto py =
+      hn::Sub(shear.axis == 0 ? z : (shear.axis == 1 ? x : y), hn::Mul(hn::Set(d, shear.y), depth));
+  // Edges a b, b c, c a and d c at once; b d by itself.
+  alignas(16) static constexpr int32_t ends[4] = {1, 2, 0, 2};
+  const auto to = hn::SetTableIndices(d, ends);
+  const auto edges =
+      hn::Sub(hn::Mul(px, hn::TableLookupLanes(py, to)), hn::Mul(py, hn::TableLookupLanes(px, to)));
+  alignas(16) float w[4], corner_x[4], corner_y[4], t[4];
+  hn::Store(edges, d, w);
+  hn::Store(px, d, corner_x);
+  hn::Store(py, d, corner_y);
+  const float bd = corner_x[1] * corner_y[3] - corner_y[1] * corner_x[3];
+  const bool first = layout::one_sided(w[1], w[2], w[0]), second = layout::one_sided(-w[1], bd, w[3]);
+  if (!first && !second) return;
+  hn::Store(hn::Mul(hn::Set(d, shear.z), depth), d, t);
+  const glm::vec3 ta(0, 0, t[0]), tb(0, 0, t[1]), tc(0, 0, t[2]), td(0, 0, t[3]);
+  layout::accept_triangle(ta, tb, tc, w[1], w[2], w[0], ray.tmin, enter, 2 * texel, best);
+  layout::accept_triangle(td, tc, tb, -w[1], bd, w[3], ray.tmin, enter, 2 * texel + 1, best);
+#endif
 }
 
-HWY_ATTR inline void trace_single(TraceBlock& block, uint32_t index) {
+template <class Block>
+HWY_ATTR inline void trace_single(Block& block, uint32_t index) {
   if (!block.wanted(index)) return;
   const layout::Ray ray = block.ray(index);
   layout::Hit best{ray.tmax, 0, 0, layout::no_index};
@@ -108,7 +145,7 @@ HWY_ATTR inline void trace_single(TraceBlock& block, uint32_t index) {
       const uint32_t fan = level == 1 ? 4 : 16;
       const uint32_t count = std::min(fan, block.places(level) - first);
       uint32_t hits = test_boxes(block, slabs, layout::level_base(level) + first, count, best.t, enter);
-      block.count_step(count, 1, 1);
+      block.count_step(count, count, 1, 1);
       ++visits;
       if (level == depth) {
         while (hits != 0) {

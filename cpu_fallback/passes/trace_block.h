@@ -12,27 +12,29 @@ namespace lodestone::cpu_fallback {
 
 inline constexpr uint32_t packet_rays = 16;
 
-class TraceBlock : public TraceKernel<CountingProbe> {
+template <class Probe>
+class TraceBlock : public TraceKernel<Probe> {
  public:
+  static constexpr bool counting = Probe::counting;
+
   explicit TraceBlock(const CpuDispatch& dispatch)
-      : TraceKernel<CountingProbe>(dispatch), extent_(scene_extent()) {
+      : TraceKernel<Probe>(dispatch), extent_(this->scene_extent()) {
     for (uint32_t level = 0; level <= depth(); ++level) {
       const uint32_t shift = 2 * (depth() - level);
-      const uint64_t used = (uint64_t(push_.slots) + (uint64_t(1) << shift) - 1) >> shift;
+      const uint64_t used = (uint64_t(this->push_.slots) + (uint64_t(1) << shift) - 1) >> shift;
       places_[level] =
           static_cast<uint32_t>(std::min<uint64_t>(uint64_t(1) << (2 * level), (used + 3) / 4 * 4));
     }
   }
 
-  const render::Counters& counts() const { return probe.counts; }
-  uint32_t depth() const { return push_.depth; }
+  uint32_t depth() const { return this->push_.depth; }
   uint32_t places(uint32_t level) const { return places_[level]; }
   float extent() const { return extent_; }
-  bool any_hit() const { return TraceKernel<CountingProbe>::any_hit(); }
+  bool any_hit() const { return TraceKernel<Probe>::any_hit(); }
 
   // Do these rays go together? All of one octant, from nearby origins, in a narrow cone.
   bool coherent(uint32_t first, uint32_t count) {
-    if (count < 4 || push_.resume != 0) return false;
+    if (count < 4 || this->push_.resume != 0) return false;
     const layout::Ray lead = ray(first);
     const uint32_t octant = octant_of(lead);
     glm::vec3 lo = lead.origin, hi = lead.origin;
@@ -47,55 +49,62 @@ class TraceBlock : public TraceKernel<CountingProbe> {
 
   // Counted together with its hit, so that the loops above stay free of it.
   layout::Ray ray(uint32_t index) const {
-    const glm::uvec4 from = rays_.load4(2 * uint64_t(index)), along = rays_.load4(2 * uint64_t(index) + 1);
+    const glm::uvec4 from = this->rays_.load4(2 * uint64_t(index)),
+                     along = this->rays_.load4(2 * uint64_t(index) + 1);
     return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
   }
 
   // Whether ray `index` is to be traced in this dispatch, always from the root: nothing is left unfinished
   // here.
   bool wanted(uint32_t index) {
-    if (push_.resume == 0) return true;
-    return states_.load4(index).w != layout::trace_finished;
+    if (this->push_.resume == 0) return true;
+    return this->states_.load4(index).w != layout::trace_finished;
   }
 
   void finish(uint32_t index, const layout::Ray& ray, layout::Hit hit, uint32_t visits) {
     if (any_hit() && hit.primitive != layout::no_index) hit = {0, 0, 0, 0};
-    hits_.store4(index, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
-    states_.store4(index, {0, 0, 0, layout::trace_finished});
-    if (constant(1) != 0) steps_.store1(index, visits);
-    probe.read(8);
-    probe.write(8);
-    if (push_.resume == 0 && !(ray.tmax < 0.0f)) probe.ray();
+    this->hits_.store4(index, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
+    this->states_.store4(index, {0, 0, 0, layout::trace_finished});
+    if (this->constant(1) != 0) this->steps_.store1(index, visits);
+    this->probe.read(8);
+    this->probe.write(8);
+    if (this->push_.resume == 0 && !(ray.tmax < 0.0f)) this->probe.ray();
   }
 
-  // `boxes` bounds of `lanes` rays out of `width` were read and tested in one step.
-  void count_step(uint32_t boxes, uint32_t lanes, uint32_t width) {
-    render::Counters& c = probe.counts;
-    c.node_visits += lanes;
-    c.box_tests += boxes;
-    c.bytes_read += 32 * (width == 1 ? boxes : 1);
-    c.lane_steps += lanes;
-    c.subgroup_steps += width;
+  // `boxes` bounds were tested in one step of `lanes` rays out of `width`, reading `nodes` nodes.
+  void count_step(uint32_t nodes, uint32_t boxes, uint32_t lanes, uint32_t width) {
+    if constexpr (Probe::counting) {
+      render::Counters& c = this->probe.counts;
+      c.node_visits += lanes;
+      c.box_tests += boxes;
+      c.bytes_read += 32 * uint64_t(nodes);
+      c.lane_steps += lanes;
+      c.subgroup_steps += width;
+    }
   }
 
+  // One quad was read and tested against `rays` rays.
   void count_quad(uint32_t rays) {
-    probe.triangles(2 * rays);
-    probe.read(16);
+    this->probe.triangles(2 * rays);
+    this->probe.read(18);
   }
 
   // 8 floats a node in two arrays: lo x y z, order or leaf; hi x y z, stride.
   const float* nodes_lo(uint32_t address) const {
-    return reinterpret_cast<const float*>(nodes_lo_.words) + 4 * uint64_t(address);
+    return reinterpret_cast<const float*>(this->nodes_lo_.words) + 4 * uint64_t(address);
   }
   const float* nodes_hi(uint32_t address) const {
-    return reinterpret_cast<const float*>(nodes_hi_.words) + 4 * uint64_t(address);
+    return reinterpret_cast<const float*>(this->nodes_hi_.words) + 4 * uint64_t(address);
   }
-  glm::vec3 texel(uint32_t index) const { return as_vec3(geometry_.load4(index)); }
+  const float* texels(uint32_t index) const {
+    return reinterpret_cast<const float*>(this->geometry_.words) + 4 * uint64_t(index);
+  }
+  glm::vec3 texel(uint32_t index) const { return as_vec3(this->geometry_.load4(index)); }
   uint32_t leaf_texel(uint32_t address) const {
-    return nodes_lo_.words[4 * uint64_t(address) + 3] & ~layout::leaf_flag;
+    return this->nodes_lo_.words[4 * uint64_t(address) + 3] & ~layout::leaf_flag;
   }
-  uint32_t leaf_stride(uint32_t address) const { return nodes_hi_.words[4 * uint64_t(address) + 3]; }
-  uint32_t order(uint32_t address) const { return nodes_lo_.words[4 * uint64_t(address) + 3]; }
+  uint32_t leaf_stride(uint32_t address) const { return this->nodes_hi_.words[4 * uint64_t(address) + 3]; }
+  uint32_t order(uint32_t address) const { return this->nodes_lo_.words[4 * uint64_t(address) + 3]; }
 
  private:
   static uint32_t octant_of(const layout::Ray& ray) {

@@ -19,7 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 // Rays [begin, end) of the dispatch; `begin` is a multiple of 16.
-void trace_block(TraceBlock& block, uint32_t begin, uint32_t end) {
+template <class Block>
+HWY_ATTR void trace_rays(Block& block, uint32_t begin, uint32_t end) {
   for (uint32_t first = begin; first < end; first += packet_rays) {
     const uint32_t count = std::min(packet_rays, end - first);
     if (block.coherent(first, count)) {
@@ -28,6 +29,13 @@ void trace_block(TraceBlock& block, uint32_t begin, uint32_t end) {
       for (uint32_t i = first; i < first + count; ++i) trace_single(block, i);
     }
   }
+}
+
+void trace_block(TraceBlock<EmptyProbe>& block, uint32_t begin, uint32_t end) {
+  trace_rays(block, begin, end);
+}
+void trace_counted(TraceBlock<CountingProbe>& block, uint32_t begin, uint32_t end) {
+  trace_rays(block, begin, end);
 }
 
 const char* target_name() {
@@ -41,6 +49,7 @@ HWY_AFTER_NAMESPACE();
 namespace lodestone::cpu_fallback {
 
 HWY_EXPORT(trace_block);
+HWY_EXPORT(trace_counted);
 HWY_EXPORT(target_name);
 
 std::string simd_target() {
@@ -48,15 +57,21 @@ std::string simd_target() {
 }
 
 void trace_wide(const CpuDispatch& dispatch) {
-  const auto trace = HWY_DYNAMIC_DISPATCH(trace_block);
+  if (!dispatch.counting) {
+    const auto trace = HWY_DYNAMIC_DISPATCH(trace_block);
+    parallel_for(dispatch.invocations, 1024, [&](uint64_t begin, uint64_t end) {
+      TraceBlock<EmptyProbe> block(dispatch);
+      trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
+    });
+    return;
+  }
+  const auto trace = HWY_DYNAMIC_DISPATCH(trace_counted);
   std::mutex mutex;
   parallel_for(dispatch.invocations, 1024, [&](uint64_t begin, uint64_t end) {
-    TraceBlock block(dispatch);
+    TraceBlock<CountingProbe> block(dispatch);
     trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
-    if (dispatch.counting) {
-      const std::lock_guard lock(mutex);
-      add_counters(*dispatch.counters, block.counts());
-    }
+    const std::lock_guard lock(mutex);
+    add_counters(*dispatch.counters, block.probe.counts);
   });
 }
 
