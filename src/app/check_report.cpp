@@ -88,11 +88,9 @@ std::string joined(const std::vector<std::string>& lines) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-// The problems, then the measures.
+// The measures and the thresholds broken, or why there are none.
 std::string details(const GoldenResult& result) {
-  std::string text = joined(result.problems) + "\n";
-  if (result.comparison) text += comparison_table(*result.comparison);
-  return text;
+  return result.comparison ? comparison_table(*result.comparison) : joined(result.problems) + "\n";
 }
 
 std::string html_section(const GoldenResult& result, const std::string& pictures) {

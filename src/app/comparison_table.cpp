@@ -28,8 +28,8 @@ std::string channel_lines(const image::Comparison& comparison) {
     text += line(width, channel.name, measure(channel.max), measure(channel.mean), measure(channel.rmse),
                  std::to_string(channel.different), channel.ids ? "-" : std::to_string(channel.non_finite));
   }
-  return text +
-         line(width, "all", number(comparison.max), number(comparison.mean), number(comparison.rmse), "", "");
+  return text + fmt::format("{:<{}}  {:>12}  {:>12}  {:>12}\n", "all", width, number(comparison.max),
+                            number(comparison.mean), number(comparison.rmse));
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::string comparison_table(const image::Comparison& comparison) {
     text += fmt::format("FLIP: mean {}, 99th percentile {}\n", number(*comparison.flip_mean),
                         number(*comparison.flip_p99));
   if (comparison.pixel_share > 0)
-    text += fmt::format("share of pixels over: {}\n", number(comparison.pixel_share));
+    text += fmt::format("share of differing pixels: {}\n", number(comparison.pixel_share));
   if (!comparison.first_difference.empty())
     text += fmt::format("first difference: {}\n", comparison.first_difference);
   for (const std::string& failure : comparison.failures) text += fmt::format("failed: {}\n", failure);

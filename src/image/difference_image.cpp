@@ -116,13 +116,13 @@ Image difference_image(const Image& a, const Image& b) {
     const std::vector<float> distances = colour_distances(a, b);
     const int factor = magnification(distances);
     return contact_sheet({colour_difference(a, distances, factor), mapped(a, flip_error(a, b), heat)},
-                         {fmt::format("|A - B| x {}", factor), "FLIP"}, 2);
+                         {fmt::format("|A-B| x{}", factor), "FLIP"}, 2);
   }
   std::vector<float> distances = largest_distances(a, b);
   const int factor = magnification(distances);
   for (float& distance : distances) distance *= float(factor);
   const auto grey = [](float value) { return Rgb{value, value, value}; };
-  const std::string label = fmt::format("max |A - B| x {}", factor);
+  const std::string label = fmt::format("max |A-B| x{}", factor);
   return contact_sheet({mapped(a, distances, grey), mapped(a, distances, heat)}, {label, label}, 2);
 }
 
