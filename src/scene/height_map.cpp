@@ -14,6 +14,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
 #include "lodestone/scene/decode_image.h"
+#include "lodestone/scene/exr_header.h"
 #include "lodestone/scene/height_field.h"
 #include "lodestone/scene/load.h"
 #include "lodestone/scene/single_mesh.h"
@@ -115,6 +116,7 @@ Samples read_samples(const std::string& file) {
   {
     const std::vector<std::byte> contents = read_file(file, max_file_bytes);
     format = format_of(as_text(contents), file);
+    if (format == "openexr") check_exr_header(file, as_text(contents));
     file_bytes = contents.size();
   }
   OIIO::ImageSpec config;

@@ -165,7 +165,14 @@ const std::vector<Malformed> files{
      "line 10: `facet` where `solid` was expected"},
 
     {"PngCutOff", ".png", "\x89PNG\r\n\x1a\n", "cannot be decoded"},
-    {"ExrCutOff", ".exr", "\x76\x2f\x31\x01\2", "cannot be decoded"},
+    {"ExrCutOff", ".exr", "\x76\x2f\x31\x01\2", "byte 5: the file ends inside its header"},
+    {"ExrAttributeCutOff", ".exr", "\x76\x2f\x31\x01\2" + std::string(3, '\0') + "a",
+     "byte 9: the file ends inside its"},
+    {"ExrAttributeAbsurd", ".exr",
+     "\x76\x2f\x31\x01\2" + std::string(3, '\0') + "a" + nul + "b" + nul + "\xff\xff\xff\x7f" + nul,
+     "byte 12: an attribute claims 2147483647 bytes, but 1 are left"},
+    {"ExrDeep", ".exr", "\x76\x2f\x31\x01\2\x08" + std::string(9, '\0'),
+     "byte 4: is an OpenEXR file of several"},
     {"TiffCutOff", ".tif", "II*" + nul, "cannot be decoded"},
 };
 
