@@ -9,6 +9,7 @@
 #define LODESTONE_SINGLE_RAY_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "lodestone/cpu_fallback/passes/trace_block.h"
@@ -19,40 +20,50 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Boxes = hn::CappedTag<float, 16>;
 
-// A ray's slabs with the near and the far plane chosen once.
-struct RaySlabs {
-  layout::Slabs s;
-  float tmin;
+// A ray in all lanes. Planes are chosen by masks: a choice by branch goes through memory.
+struct RayLanes {
+  hn::Vec<Boxes> near_x, near_y, near_z, far_x, far_y, far_z, inverse_x, inverse_y, inverse_z, tmin;
+  hn::Mask<Boxes> back_x, back_y, back_z;  // the direction's component is negative
 };
+
+HWY_ATTR inline RayLanes make_lanes(const layout::Ray& ray, const layout::Slabs& s) {
+  const Boxes d;
+  const auto zero = hn::Zero(d);
+  return {hn::Set(d, s.near_origin.x),
+          hn::Set(d, s.near_origin.y),
+          hn::Set(d, s.near_origin.z),
+          hn::Set(d, s.far_origin.x),
+          hn::Set(d, s.far_origin.y),
+          hn::Set(d, s.far_origin.z),
+          hn::Set(d, s.inverse.x),
+          hn::Set(d, s.inverse.y),
+          hn::Set(d, s.inverse.z),
+          hn::Set(d, ray.tmin),
+          hn::Lt(hn::Set(d, ray.direction.x), zero),
+          hn::Lt(hn::Set(d, ray.direction.y), zero),
+          hn::Lt(hn::Set(d, ray.direction.z), zero)};
+}
 
 // Tests `count` (at most 16) nodes from `address` on; returns the bits of those entered before `tmax` and
 // their distances.
 template <class Block>
-HWY_ATTR inline uint32_t test_boxes(const Block& block, const RaySlabs& ray, uint32_t address, uint32_t count,
+HWY_ATTR inline uint32_t test_boxes(const Block& block, const RayLanes& ray, uint32_t address, uint32_t count,
                                     float tmax, float* HWY_RESTRICT enter) {
   const Boxes d;
-  const layout::Slabs& s = ray.s;
-  const auto tmin = hn::Set(d, ray.tmin), limit = hn::Set(d, tmax);
-  const auto near_x = hn::Set(d, s.near_origin.x), near_y = hn::Set(d, s.near_origin.y),
-             near_z = hn::Set(d, s.near_origin.z);
-  const auto far_x = hn::Set(d, s.far_origin.x), far_y = hn::Set(d, s.far_origin.y),
-             far_z = hn::Set(d, s.far_origin.z);
-  const auto inv_x = hn::Set(d, s.inverse.x), inv_y = hn::Set(d, s.inverse.y),
-             inv_z = hn::Set(d, s.inverse.z);
+  const auto limit = hn::Set(d, tmax);
   const size_t lanes = hn::Lanes(d);
   uint32_t hits = 0;
   for (uint32_t first = 0; first < count; first += lanes) {
     hn::Vec<Boxes> lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, unused;
     hn::LoadInterleaved4(d, block.nodes_lo(address + first), lo_x, lo_y, lo_z, unused);
     hn::LoadInterleaved4(d, block.nodes_hi(address + first), hi_x, hi_y, hi_z, unused);
-    const bool x = (s.octant & 1) != 0, y = (s.octant & 2) != 0, z = (s.octant & 4) != 0;
-    const auto enter_x = hn::Mul(hn::Sub(x ? hi_x : lo_x, near_x), inv_x);
-    const auto enter_y = hn::Mul(hn::Sub(y ? hi_y : lo_y, near_y), inv_y);
-    const auto enter_z = hn::Mul(hn::Sub(z ? hi_z : lo_z, near_z), inv_z);
-    const auto exit_x = hn::Mul(hn::Sub(x ? lo_x : hi_x, far_x), inv_x);
-    const auto exit_y = hn::Mul(hn::Sub(y ? lo_y : hi_y, far_y), inv_y);
-    const auto exit_z = hn::Mul(hn::Sub(z ? lo_z : hi_z, far_z), inv_z);
-    const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, tmin));
+    const auto enter_x = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_x, hi_x, lo_x), ray.near_x), ray.inverse_x);
+    const auto enter_y = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_y, hi_y, lo_y), ray.near_y), ray.inverse_y);
+    const auto enter_z = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_z, hi_z, lo_z), ray.near_z), ray.inverse_z);
+    const auto exit_x = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_x, lo_x, hi_x), ray.far_x), ray.inverse_x);
+    const auto exit_y = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_y, lo_y, hi_y), ray.far_y), ray.inverse_y);
+    const auto exit_z = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_z, lo_z, hi_z), ray.far_z), ray.inverse_z);
+    const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, ray.tmin));
     const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, limit));
     hn::StoreU(from, d, enter + first);
     uint8_t bits[8] = {};
@@ -101,11 +112,15 @@ HWY_ATTR inline void test_quad(Block& block, const layout::Ray& ray, const layou
   const auto y = hn::Sub(hn::ConcatUpperUpper(d, ce, ab), hn::Set(d, ray.origin.y));
   const auto z = hn::Sub(hn::ConcatLowerLower(d, hn::InterleaveUpper(d, c, e), hn::InterleaveUpper(d, a, b)),
                          hn::Set(d, ray.origin.z));
-  const auto depth = shear.axis == 0 ? x : (shear.axis == 1 ? y : z);
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto axis = hn::Set(du, shear.axis);
+  const auto along_x = hn::RebindMask(d, hn::Eq(axis, hn::Zero(du))),
+             along_y = hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 1)));
+  const auto depth = hn::IfThenElse(along_x, x, hn::IfThenElse(along_y, y, z));
   const auto px =
-      hn::Sub(shear.axis == 0 ? y : (shear.axis == 1 ? z : x), hn::Mul(hn::Set(d, shear.x), depth));
+      hn::Sub(hn::IfThenElse(along_x, y, hn::IfThenElse(along_y, z, x)), hn::Mul(hn::Set(d, shear.x), depth));
   const auto py =
-      hn::Sub(shear.axis == 0 ? z : (shear.axis == 1 ? x : y), hn::Mul(hn::Set(d, shear.y), depth));
+      hn::Sub(hn::IfThenElse(along_x, z, hn::IfThenElse(along_y, x, y)), hn::Mul(hn::Set(d, shear.y), depth));
   // Edges a b, b c, c a and d c at once; b d by itself.
   alignas(16) static constexpr int32_t ends[4] = {1, 2, 0, 2};
   const auto to = hn::SetTableIndices(d, ends);
@@ -132,7 +147,7 @@ HWY_ATTR inline void trace_single(Block& block, uint32_t index) {
   layout::Hit best{ray.tmax, 0, 0, layout::no_index};
   uint32_t visits = 0;
   if (!(ray.tmax < 0.0f)) {
-    const RaySlabs slabs{layout::make_slabs(ray, block.extent()), ray.tmin};
+    const RayLanes slabs = make_lanes(ray, layout::make_slabs(ray, block.extent()));
     const layout::Shear shear = layout::make_shear(ray);
     const uint32_t depth = block.depth();
     // Two levels a step, so that the last step ends on the leaves: from the root's children where the depth
@@ -148,6 +163,12 @@ HWY_ATTR inline void trace_single(Block& block, uint32_t index) {
       block.count_step(count, count, 1, 1);
       ++visits;
       if (level == depth) {
+        for (uint32_t rest = hits; rest != 0; rest &= rest - 1) {
+          const uint32_t leaf =
+              layout::level_base(level) + first + static_cast<uint32_t>(std::countr_zero(rest));
+          hwy::Prefetch(block.texels(block.leaf_texel(leaf)));
+          hwy::Prefetch(block.texels(block.leaf_texel(leaf) + block.leaf_stride(leaf)));
+        }
         while (hits != 0) {
           // Nearest first: often the others then lie behind the hit.
           uint32_t nearest = static_cast<uint32_t>(std::countr_zero(hits));
