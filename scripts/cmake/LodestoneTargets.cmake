@@ -15,6 +15,7 @@ if(LODESTONE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_library(lodestone_options INTERFACE)
+set_target_properties(lodestone_options PROPERTIES EXPORT_NAME options)
 target_compile_features(lodestone_options INTERFACE cxx_std_20)
 target_compile_options(lodestone_options INTERFACE
   # One arithmetic: no fused multiply-add behind our back, so that C++ gives the bits of the kernels.
