@@ -3,6 +3,8 @@
 // name and type ended by zeros, size, value. An empty name ends them.
 #include "lodestone/scene/exr_header.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "lodestone/base/error.h"
@@ -11,6 +13,23 @@ namespace lodestone::scene {
 namespace {
 
 constexpr uint32_t deep_flag = 0x800, multi_part_flag = 0x1000;
+
+struct TypeSize {
+  std::string_view type;
+  uint32_t size;
+};
+
+// The library reads values of these types without regard to the size that the file states.
+constexpr std::array fixed_sizes{
+    TypeSize{"box2i", 16},      TypeSize{"box2f", 16},   TypeSize{"chromaticities", 32},
+    TypeSize{"compression", 1}, TypeSize{"double", 8},   TypeSize{"envmap", 1},
+    TypeSize{"float", 4},       TypeSize{"int", 4},      TypeSize{"keycode", 28},
+    TypeSize{"lineOrder", 1},   TypeSize{"m33f", 36},    TypeSize{"m33d", 72},
+    TypeSize{"m44f", 64},       TypeSize{"m44d", 128},   TypeSize{"rational", 8},
+    TypeSize{"tiledesc", 9},    TypeSize{"timecode", 8}, TypeSize{"v2i", 8},
+    TypeSize{"v2f", 8},         TypeSize{"v2d", 16},     TypeSize{"v3i", 12},
+    TypeSize{"v3f", 12},        TypeSize{"v3d", 24},     TypeSize{"deepImageState", 1},
+};
 
 class HeaderWalker {
  public:
@@ -23,16 +42,7 @@ class HeaderWalker {
       fail_input(file_,
                  "byte 4: is an OpenEXR file of several parts or of deep samples; save a single flat image");
     }
-    while (read_name() > 0) {
-      read_name();  // the type
-      const size_t place = position_;
-      const uint32_t size = read_number();
-      if (size > bytes_.size() - position_) {
-        fail_input(file_, "byte {}: an attribute claims {} bytes, but {} are left; get the whole file", place,
-                   size, bytes_.size() - position_);
-      }
-      position_ += size;
-    }
+    while (!read_name().empty()) read_attribute();
   }
 
  private:
@@ -44,13 +54,50 @@ class HeaderWalker {
     return number;
   }
 
-  // Passes over a name; its length.
-  size_t read_name() {
-    const size_t end = bytes_.find('\0', position_);
+  std::string_view read_name() {
+    const size_t start = position_, end = bytes_.find('\0', start);
     if (end == std::string_view::npos) fail_truncated();
-    const size_t length = end - position_;
     position_ = end + 1;
-    return length;
+    return bytes_.substr(start, end - start);
+  }
+
+  // What follows the name: type, size, value.
+  void read_attribute() {
+    const std::string_view type = read_name();
+    const size_t place = position_;
+    const uint32_t size = read_number();
+    if (size > bytes_.size() - position_) {
+      fail_input(file_, "byte {}: an attribute claims {} bytes, but {} are left; get the whole file", place,
+                 size, bytes_.size() - position_);
+    }
+    const size_t start = position_;
+    if (value_size(type, size) != size) {
+      fail_input(file_,
+                 "byte {}: an attribute claims {} bytes, which its type does not have; save the image again",
+                 place, size);
+    }
+    position_ = start + size;
+  }
+
+  // The size that the value has by its type or its own contents.
+  uint64_t value_size(std::string_view type, uint32_t size) {
+    if (type == "chlist") {
+      const size_t start = position_;
+      constexpr size_t channel_size = 16;  // behind the name: type, flag and padding, sampling in x and y
+      while (!read_name().empty()) {
+        if (bytes_.size() - position_ < channel_size) fail_truncated();
+        position_ += channel_size;
+      }
+      return position_ - start;
+    }
+    if (type == "preview") {
+      const uint64_t width = read_number(), height = read_number();
+      return width > size || height > size ? 0 : 8 + 4 * width * height;
+    }
+    for (const TypeSize& fixed : fixed_sizes) {
+      if (fixed.type == type) return fixed.size;
+    }
+    return size;
   }
 
   [[noreturn]] void fail_truncated() const {

@@ -9,7 +9,8 @@
 namespace lodestone::scene {
 
 // Throws Error(bad_input), naming `file` and the byte, unless the bytes begin with the header of a single
-// image that is not deep, and each of its attributes fits into the file. Values are not looked at.
+// image that is not deep, and each of its attributes fits into the file and has the size of its type. Values
+// are not looked at.
 void check_exr_header(const std::string& file, std::string_view bytes);
 
 }  // namespace lodestone::scene
