@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -43,7 +42,8 @@ struct Atlas {
 };
 
 // `grid` needs every placed mesh to be made of grids (else Error(usage)); `automatic` takes grid where they
-// are, exact for the rest (one atlas can hold charts of both kinds).
+// are, exact for the rest (one atlas can hold charts of both kinds). Throws Error(bad_input) where no
+// triangle is left, a grid is not what scene.h says, or more texels or leaves are needed than there can be.
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
 
 // Baked files (.lode): header (magic, version, content hash, sizes), then the arrays zstd-compressed, then a
