@@ -203,7 +203,9 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     count_value(1 + v.text.size() / 64);
     const Frame& holder = frames_.back();
     if (holder.is_free) {
-      if (key_ == "light" && !holder.is_array && !v.is_index()) fail_type("an index");
+      const bool index = (holder.name == "KHR_lights_punctual" && key_ == "light") ||
+                         (holder.name == "KHR_texture_transform" && key_ == "texCoord");
+      if (index && !v.is_index()) fail_type("an index");
       return true;
     }
     if (holder.is_array) {

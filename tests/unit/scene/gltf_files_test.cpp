@@ -138,6 +138,18 @@ TEST(GltfFiles, UsedExtensionsThatAreNotReadOnlyWarn) {
   EXPECT_EQ(warnings.find("VENDOR_unknown", first + 1), std::string::npos) << "once";
 }
 
+TEST(GltfFiles, ExtrasMayHoldAnything) {
+  GltfBuilder gltf;
+  with_triangle(gltf);
+  const json anything =
+      json::parse(R"({"light": "on", "mesh": -1, "count": 1e30, "children": {"nodes": [[], "x"]},
+                                        "extensions": 5, "targets": [1], "big": 123456789012345})");
+  gltf.root["extras"] = anything;
+  gltf.root["nodes"][0]["extras"] = anything;
+  gltf.root["meshes"][0]["primitives"][0]["extras"] = anything;
+  EXPECT_EQ(gltf.load().meshes.size(), 1u);
+}
+
 TEST(GltfFiles, OlderVersionsAreErrors) {
   GltfBuilder gltf;
   gltf.root["asset"]["version"] = "1.0";
