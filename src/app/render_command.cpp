@@ -10,6 +10,7 @@
 
 #include "lodestone/app/clock.h"
 #include "lodestone/app/common_options.h"
+#include "lodestone/app/contact_sheet_file.h"
 #include "lodestone/app/frame_writer.h"
 #include "lodestone/app/interrupt.h"
 #include "lodestone/app/measure.h"
@@ -38,7 +39,7 @@ struct RenderOptions {
   std::vector<std::string> aovs;
   float exposure = 0;
   render::ViewTransform view = render::ViewTransform::filmic;
-  std::string output, statistics, profile;
+  std::string output, contact_sheet, statistics, profile;
   report::ProgressMode progress = report::ProgressMode::automatic;
 };
 
@@ -52,7 +53,7 @@ OutputPattern check(const RenderOptions& options) {
   if (output.is_png() && !options.aovs.empty())
     fail(ExitCode::usage, "--aov", "a PNG holds the picture alone; write an .exr with -o");
   check_writable(output.path(options.frames.range().first));
-  for (const std::string& file : {options.statistics, options.profile}) {
+  for (const std::string& file : {options.contact_sheet, options.statistics, options.profile}) {
     if (!file.empty()) check_writable(file);
   }
   return output;
@@ -93,6 +94,7 @@ class RenderRun {
   scene::Bounds bounds_;
   report::RunRecord measured_;
   FrameWriter writer_;
+  ContactSheetFile sheet_;
   report::Progress progress_;
 };
 
@@ -102,6 +104,7 @@ RenderRun::RenderRun(const RenderOptions& options)
       threads_(options.device.backend.threads),
       device_(open_device(options.device)),
       prepared_(prepare_scene(options.scene, options.pose)),
+      sheet_(options.contact_sheet, options.frames.range().count()),
       progress_(log::level() == log::Level::quiet && options.progress == report::ProgressMode::automatic
                     ? report::ProgressMode::off
                     : options.progress,
@@ -160,6 +163,7 @@ bool RenderRun::render_frame(uint32_t frame) {
   if (!result) return false;
   measured.wall_ms = result->wall_ms;
   measured.dispatches = to_dispatches(result->passes, device_.origin_ms);
+  sheet_.add(static_cast<uint32_t>(measured_.frames.size()), frame, result->display);
   image::Image image = std::move(output_.is_png() ? result->display : result->linear);
   image.metadata = provenance(measured, view);
   writer_.push(output_.path(frame), std::move(image));
@@ -193,6 +197,7 @@ int RenderRun::run() {
   render_frames();
   progress_.clear();
   measured_.device_bytes = device_.backend->allocated_bytes();
+  sheet_.write();
   write_reports();
   const uint32_t wanted = options_.frames.range().count();
   if (measured_.frames.size() == wanted) return int(ExitCode::done);
@@ -206,6 +211,9 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
          "An .exr (linear, with AOVs) or .png (for display); #### in its name becomes the frame number")
       ->required()
       ->type_name("OUT");
+  app.add_option("--contact-sheet", options.contact_sheet,
+                 "Also write up to 24 frames of the sequence, as displayed, on one sheet")
+      ->type_name("FILE.png");
   add_value(app, "--aov", "LIST", fmt::format("More channels of an .exr: {}", join_names(aov_names())),
             [&](const std::string& text) {
               options.aovs = parse_list("--aov", text);

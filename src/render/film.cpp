@@ -41,12 +41,12 @@ void check_aovs(const std::vector<std::string>& names) {
   }
 }
 
-image::Image make_color_image(const Settings& settings, const std::vector<glm::vec4>& pixels) {
+image::Image make_color_image(const Settings& settings, const std::vector<glm::vec4>& pixels, bool alpha) {
   image::Image image;
   image.width = settings.width;
   image.height = settings.height;
   const char* names[] = {"R", "G", "B", "A"};
-  for (int c = 0; c < 4; ++c) {
+  for (int c = 0; c < (alpha ? 4 : 3); ++c) {
     image::Channel& channel = image.add(names[c]);
     for (size_t i = 0; i < pixels.size(); ++i) channel.values[i] = pixels[i][c];
   }

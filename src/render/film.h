@@ -9,7 +9,8 @@ namespace lodestone::render {
 // Throws Error(usage) for a name that is none of depth, normal, albedo, uv, id, lod, steps.
 void check_aovs(const std::vector<std::string>& names);
 
-image::Image make_color_image(const Settings& settings, const std::vector<glm::vec4>& pixels);
+// R G B and, with `alpha`, A.
+image::Image make_color_image(const Settings& settings, const std::vector<glm::vec4>& pixels, bool alpha);
 // Adds the AOVs that the settings ask for; `quads`: four a pixel, as the `aov` pass writes them.
 void add_aovs(const Settings& settings, const std::vector<glm::uvec4>& quads, image::Image& image);
 

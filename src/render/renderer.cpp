@@ -293,9 +293,10 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
   FrameResult result;
   std::vector<glm::vec4> pixels(size_t(s.settings.width) * s.settings.height);
   download_all(s.backend, s.beauty, pixels);
-  result.linear = make_color_image(s.settings, pixels);
+  result.linear = make_color_image(s.settings, pixels, true);
   download_all(s.backend, s.display, pixels);
-  result.display = make_color_image(s.settings, pixels);
+  result.display = make_color_image(s.settings, pixels, false);
+  result.display.linear = false;
   if (!s.settings.aovs.empty()) {
     std::vector<glm::uvec4> quads(4 * pixels.size());
     download_all(s.backend, s.aovs, quads);

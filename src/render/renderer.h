@@ -49,7 +49,7 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
 
 struct FrameResult {
   image::Image linear;   // R G B A and the AOVs, under their EXR channel names
-  image::Image display;  // R G B A after exposure, view transform and sRGB encoding
+  image::Image display;  // R G B after exposure, view transform and sRGB encoding; the sky behind everything
   std::vector<PassRecord> passes;
   double wall_ms = 0;
 };
