@@ -59,6 +59,27 @@ TEST(Flip, GreyStepIsAsComputedByHand) {
   EXPECT_NEAR(error, plain_error(116 * (std::cbrt(0.20) - std::cbrt(0.18))), 1e-4);
 }
 
+// The expected means are what the authors' own C++ implementation (FLIP 1.6) measures on the same pictures.
+TEST(Flip, AgreesWithTheAuthorsImplementation) {
+  const Image random = noise(200, 130, 1);
+  EXPECT_NEAR(mean_error(random, noise(200, 130, 2)), 0.388485, 2e-5);
+  Image brighter = random;
+  for (Channel& channel : brighter.channels)
+    for (float& value : channel.values) value = std::min(1.0f, value * 1.02f);
+  EXPECT_NEAR(mean_error(random, brighter), 0.048310, 2e-5);
+
+  const Image base = plain(100, 100, 0.2f, 0.3f, 0.4f);
+  Image edge = base, dot = base;
+  for (Channel& channel : edge.channels) {
+    for (size_t i = 0; i < edge.pixels(); ++i) {
+      if (i % 100 >= 50) channel.values[i] = 0.8f;
+    }
+  }
+  EXPECT_NEAR(mean_error(base, edge), 0.404269, 2e-5);
+  for (Channel& channel : dot.channels) channel.values[5050] = 1;
+  EXPECT_NEAR(mean_error(base, dot), 0.000498, 2e-6);
+}
+
 TEST(Flip, IsSymmetricToTheBit) {
   const Image a = noise(90, 70, 1), b = noise(90, 70, 2);
   EXPECT_EQ(flip_error(a, b), flip_error(b, a));
