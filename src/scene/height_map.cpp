@@ -14,7 +14,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
 #include "lodestone/scene/decode_image.h"
-#include "lodestone/scene/exr_header.h"
+#include "lodestone/scene/exr_outline.h"
 #include "lodestone/scene/height_field.h"
 #include "lodestone/scene/load.h"
 #include "lodestone/scene/single_mesh.h"
@@ -51,17 +51,17 @@ std::string reason(const std::string& error) {
   return line.empty() ? "the data are broken" : line;
 }
 
-void check_size(const OIIO::ImageSpec& spec, uint64_t file_bytes, const std::string& file) {
-  if (spec.width < 2 || spec.height < 2 || spec.depth > 1 || spec.deep) {
-    fail_input(file, "has {} x {} samples; a height map is a flat image of at least 2 x 2", spec.width,
-               spec.height);
+void check_size(uint64_t width, uint64_t height, uint64_t texel_bytes, uint64_t file_bytes,
+                const std::string& file) {
+  if (width < 2 || height < 2) {
+    fail_input(file, "has {} x {} samples; a height map is an image of at least 2 x 2", width, height);
   }
-  const uint64_t width = uint64_t(spec.width), height = uint64_t(spec.height);
-  if (width * height > max_image_texels) {
+  if (width > max_image_texels || height > max_image_texels / width) {
     fail_input(file, "has {} x {} samples, more than {} in all; reduce it or cut it into several", width,
                height, max_image_texels);
   }
-  if (width * height * spec.pixel_bytes(true) > expansion_allowance + max_expansion * file_bytes) {
+  if (width * height >
+      (expansion_allowance + max_expansion * file_bytes) / std::max<uint64_t>(texel_bytes, 1)) {
     fail_input(file, "claims {} x {} samples, more than its {} bytes can hold; convert it again", width,
                height, file_bytes);
   }
@@ -116,8 +116,11 @@ Samples read_samples(const std::string& file) {
   {
     const std::vector<std::byte> contents = read_file(file, max_file_bytes);
     format = format_of(as_text(contents), file);
-    if (format == "openexr") check_exr_header(file, as_text(contents));
     file_bytes = contents.size();
+    if (format == "openexr") {
+      const ExrOutline outline = read_exr_outline(file, as_text(contents));
+      check_size(outline.width, outline.height, outline.texel_bytes, file_bytes, file);
+    }
   }
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);  // heights are not multiplied by alpha
@@ -128,7 +131,10 @@ Samples read_samples(const std::string& file) {
     fail_input(file, "cannot be decoded ({}); get the whole file or convert it again",
                reason(input->geterror()));
   }
-  check_size(spec, file_bytes, file);
+  if (spec.width < 0 || spec.height < 0 || spec.depth > 1 || spec.deep) {
+    fail_input(file, "is no flat image; a height map has one sample a column and row");
+  }
+  check_size(uint64_t(spec.width), uint64_t(spec.height), spec.pixel_bytes(true), file_bytes, file);
   Samples samples;
   samples.width = static_cast<uint32_t>(spec.width);
   samples.height = static_cast<uint32_t>(spec.height);

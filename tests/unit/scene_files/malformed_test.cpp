@@ -177,6 +177,11 @@ const std::vector<Malformed> files{
     {"ExrChannelsOfWrongSize", ".exr",
      "\x76\x2f\x31\x01\2" + std::string(3, '\0') + "a" + nul + "chlist" + nul + "\5" + std::string(9, '\0'),
      "byte 17: an attribute claims 5 bytes, which its type does not have"},
+    {"ExrWindowAbsurd", ".exr",
+     "\x76\x2f\x31\x01\2" + std::string(3, '\0') + "dataWindow" + nul + "box2i" + nul + "\x10" +
+         std::string(3, '\0') + std::string(3, '\0') + "\x80" + std::string(4, '\0') + "\xff\xff\xff\x7f\1" +
+         std::string(4, '\0'),
+     "has 4294967296 x 2 samples, more than 134217728 in all"},
     {"ExrDeep", ".exr", "\x76\x2f\x31\x01\2\x08" + std::string(9, '\0'),
      "byte 4: is an OpenEXR file of several"},
     {"TiffCutOff", ".tif", "II*" + nul, "cannot be decoded"},

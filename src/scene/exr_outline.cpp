@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Layout: "OpenEXR File Layout", Industrial Light & Magic. Magic number, version and flags, then attributes:
 // name and type ended by zeros, size, value. An empty name ends them.
-#include "lodestone/scene/exr_header.h"
+#include "lodestone/scene/exr_outline.h"
 
 #include <array>
 #include <cstddef>
@@ -35,14 +35,15 @@ class HeaderWalker {
  public:
   HeaderWalker(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
-  void walk() {
+  ExrOutline walk() {
     read_number();  // the magic number
     const uint32_t flags = read_number();
     if ((flags & (deep_flag | multi_part_flag)) != 0) {
       fail_input(file_,
                  "byte 4: is an OpenEXR file of several parts or of deep samples; save a single flat image");
     }
-    while (!read_name().empty()) read_attribute();
+    for (std::string_view name = read_name(); !name.empty(); name = read_name()) read_attribute(name);
+    return outline_;
   }
 
  private:
@@ -62,7 +63,7 @@ class HeaderWalker {
   }
 
   // What follows the name: type, size, value.
-  void read_attribute() {
+  void read_attribute(std::string_view name) {
     const std::string_view type = read_name();
     const size_t place = position_;
     const uint32_t size = read_number();
@@ -76,17 +77,30 @@ class HeaderWalker {
                  "byte {}: an attribute claims {} bytes, which its type does not have; save the image again",
                  place, size);
     }
+    if (name == "dataWindow" && type == "box2i") {
+      position_ = start;
+      read_data_window();
+    }
     position_ = start + size;
+  }
+
+  // The first and the last column and row, as x, y, x, y.
+  void read_data_window() {
+    std::array<int64_t, 4> corners{};
+    for (int64_t& corner : corners) corner = static_cast<int32_t>(read_number());
+    outline_.width = corners[2] < corners[0] ? 0 : static_cast<uint64_t>(corners[2] - corners[0] + 1);
+    outline_.height = corners[3] < corners[1] ? 0 : static_cast<uint64_t>(corners[3] - corners[1] + 1);
   }
 
   // The size that the value has by its type or its own contents.
   uint64_t value_size(std::string_view type, uint32_t size) {
     if (type == "chlist") {
       const size_t start = position_;
-      constexpr size_t channel_size = 16;  // behind the name: type, flag and padding, sampling in x and y
+      constexpr uint32_t half = 1;
+      outline_.texel_bytes = 0;
       while (!read_name().empty()) {
-        if (bytes_.size() - position_ < channel_size) fail_truncated();
-        position_ += channel_size;
+        outline_.texel_bytes += read_number() == half ? 2 : 4;
+        for (int i = 0; i < 3; ++i) read_number();  // a flag and padding, the sampling in x and y
       }
       return position_ - start;
     }
@@ -107,12 +121,13 @@ class HeaderWalker {
   const std::string& file_;
   std::string_view bytes_;
   size_t position_ = 0;
+  ExrOutline outline_;
 };
 
 }  // namespace
 
-void check_exr_header(const std::string& file, std::string_view bytes) {
-  HeaderWalker(file, bytes).walk();
+ExrOutline read_exr_outline(const std::string& file, std::string_view bytes) {
+  return HeaderWalker(file, bytes).walk();
 }
 
 }  // namespace lodestone::scene
