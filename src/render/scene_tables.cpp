@@ -96,7 +96,7 @@ std::vector<layout::MaterialRecord> material_records(const scene::Scene& scene,
   }
   // Parts without a material are of this one.
   layout::MaterialRecord grey{};
-  grey.base_color = vec4(0.7f, 0.7f, 0.7f, 1);
+  grey.base_color = vec4(0.55f, 0.55f, 0.55f, 1);
   grey.roughness = 0.6f;
   grey.base_color_texture = grey.metallic_roughness_texture = grey.normal_texture = layout::no_index;
   grey.occlusion_texture = grey.emissive_texture = layout::no_index;

@@ -116,12 +116,12 @@ std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const s
   }
   sky = scene.sky.value_or(scene::Sky{});
   if (lights.empty() && !scene.sky) {
-    sky = {vec3(0.55f, 0.65f, 0.85f), vec3(0.85f, 0.85f, 0.85f), vec3(0.25f, 0.22f, 0.2f)};
+    sky = {vec3(0.36f, 0.42f, 0.54f), vec3(0.48f, 0.49f, 0.5f), vec3(0.15f, 0.135f, 0.12f)};
     layout::LightRecord key{};
     key.kind = layout::light_directional;
     key.direction = glm::normalize(glm::normalize(view.forward) + 0.6f * glm::normalize(view.right) -
                                    0.9f * glm::normalize(view.up));
-    key.color = vec3(2.2f, 2.1f, 1.95f);
+    key.color = vec3(1.7f, 1.6f, 1.45f);
     lights.push_back(key);
   }
   if (lights.empty() || sky.top != vec3(0) || sky.horizon != vec3(0) || sky.bottom != vec3(0)) {
