@@ -7,9 +7,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <new>
+#include <system_error>
 
 #include "lodestone/app/bake_command.h"
 #include "lodestone/app/bench_command.h"
@@ -42,6 +45,10 @@ class LogLevelGuard {
 int report(ExitCode code, const std::string& message) {
   fmt::print(stderr, "lodestone: error: {}\n", message);
   return int(code);
+}
+
+[[noreturn]] void fail_output() {
+  fail(ExitCode::machine, "standard output", "cannot be written: {}", std::strerror(errno));
 }
 
 void add_commands(CLI::App& app, std::function<int()>& run) {
@@ -101,11 +108,14 @@ int run_command_line(const std::vector<std::string>& arguments) {
     add_commands(app, run);
     const int code = parse(app, arguments, run)();
     fail_on_late_messages();
+    if (std::fflush(stdout) != 0) fail_output();
     return code;
   } catch (const Error& error) {
     return report(error.code(), error.what());
   } catch (const std::bad_alloc&) {
     return report(ExitCode::machine, "memory: there is not enough of it; choose a smaller scene or picture");
+  } catch (const std::system_error& error) {
+    return report(ExitCode::machine, fmt::format("system: {}", error.what()));
   } catch (const std::exception& error) {
     return report(ExitCode::machine, fmt::format("internal: {}; please report this", error.what()));
   }

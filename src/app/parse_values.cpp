@@ -25,11 +25,16 @@ bool read_all(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// Whether all of `text` is a whole number, lo..hi.
+bool read_count(std::string_view text, uint64_t lo, uint64_t hi, uint64_t& value) {
+  return read_all(text, value) && value >= lo && value <= hi;
+}
+
 }  // namespace
 
 uint64_t parse_count(const std::string& option, const std::string& text, uint64_t lo, uint64_t hi) {
   uint64_t value = 0;
-  if (!read_all(text, value) || value < lo || value > hi)
+  if (!read_count(text, lo, hi, value))
     fail_usage(option, "`{}` is not a whole number from {} to {}", text, lo, hi);
   return value;
 }
@@ -46,27 +51,27 @@ double parse_number(const std::string& option, const std::string& text, double l
 
 Size parse_size(const std::string& option, const std::string& text) {
   const size_t cross = text.find('x');
-  if (cross == std::string::npos)
-    fail_usage(option, "`{}` is not a size; write WIDTHxHEIGHT, e.g. 640x360", text);
-  Size size;
-  size.width = uint32_t(parse_count(option, text.substr(0, cross), 1, max_side));
-  size.height = uint32_t(parse_count(option, text.substr(cross + 1), 1, max_side));
-  if (uint64_t(size.width) * size.height > max_pixels)
-    fail_usage(option, "`{}` has {} pixels, more than the {} that a picture may have", text,
-               uint64_t(size.width) * size.height, max_pixels);
-  return size;
+  const std::string_view view = text;
+  uint64_t width = 0, height = 0;
+  if (cross == std::string::npos || !read_count(view.substr(0, cross), 1, max_side, width) ||
+      !read_count(view.substr(cross + 1), 1, max_side, height))
+    fail_usage(option, "`{}` is not WIDTHxHEIGHT, each from 1 to {}, e.g. 640x360", text, max_side);
+  if (width * height > max_pixels)
+    fail_usage(option, "`{}` has {} pixels, more than the {} that a picture may have", text, width * height,
+               max_pixels);
+  return {uint32_t(width), uint32_t(height)};
 }
 
 FrameRange parse_frames(const std::string& option, const std::string& text) {
   const size_t dash = text.find('-');
-  FrameRange range;
-  range.first = uint32_t(parse_count(option, text.substr(0, dash), 0, max_frame));
-  range.last = range.first;
-  if (dash != std::string::npos)
-    range.last = uint32_t(parse_count(option, text.substr(dash + 1), 0, max_frame));
-  if (range.first > range.last)
-    fail_usage(option, "`{}` ends before it begins; write the smaller frame first", text);
-  return range;
+  const std::string_view view = text;
+  uint64_t first = 0, last = 0;
+  bool good = read_count(view.substr(0, dash), 0, max_frame, first);
+  last = first;
+  if (dash != std::string::npos) good = good && read_count(view.substr(dash + 1), 0, max_frame, last);
+  if (!good) fail_usage(option, "`{}` is neither a frame nor FIRST-LAST, each from 0 to {}", text, max_frame);
+  if (first > last) fail_usage(option, "`{}` ends before it begins; write the smaller frame first", text);
+  return {uint32_t(first), uint32_t(last)};
 }
 
 std::vector<std::string> parse_list(const std::string& option, const std::string& text) {

@@ -2,9 +2,11 @@
 #include "lodestone/app/prepared_scene.h"
 
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "lodestone/app/clock.h"
+#include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 #include "lodestone/scene/load.h"
 
@@ -51,6 +53,9 @@ std::string PreparedScene::clip_name() const {
 }
 
 PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose) {
+  if (std::filesystem::path(options.scene).extension() == ".lode")
+    fail(ExitCode::usage, options.scene,
+         "holds a precomputation alone; give the scene that it was baked from");
   PreparedScene prepared;
   prepared.pose = pose;
   prepared.scene =

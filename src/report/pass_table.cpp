@@ -48,6 +48,9 @@ std::string pass_table(const std::vector<PassSum>& passes) {
       fmt::format(fmt::runtime(row_format), "pass", "calls", device ? "device ms" : "wall ms", "share",
                   "invocations", "MB read", "MB written", "rays", "visits/ray", "tests/ray", "lanes");
   for (const PassSum& pass : passes) table += row(pass, milliseconds(pass), total);
+  const bool untimed = std::any_of(passes.begin(), passes.end(),
+                                   [&](const PassSum& pass) { return !milliseconds(pass).has_value(); });
+  if (untimed) table += "(the first dispatch of a kernel is not timed: it compiles)\n";
   return table;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene as the tracers see it: every node that places a mesh is a placement with vertices of its own, all
-// placements in one run of vertices and one of triangles. Static: computed once, uploaded once. What changes by the
-// frame is two small arrays, the morph weights and the matrices (`frame_weights`, `frame_matrices`).
+// placements in one run of vertices and one of triangles. Static: computed once, uploaded once. What changes
+// by the frame is two small arrays, the morph weights and the matrices (`frame_weights`, `frame_matrices`).
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct Placement {
 // The material and the numbering of a run of triangles (Mesh part of a placement).
 struct AssemblyPart {
   uint32_t material = none;
-  uint32_t mesh = 0;                // index in the file
-  uint32_t first_triangle = 0;      // in the assembly
+  uint32_t mesh = 0;                 // index in the file
+  uint32_t first_triangle = 0;       // in the assembly
   uint32_t first_mesh_triangle = 0;  // the same triangle's index within its mesh
 };
 
@@ -45,7 +45,7 @@ struct Assembly {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec4> tangents;  // xyz 0 where the mesh has none
   std::vector<glm::vec2> texcoords[2];
-  std::vector<uint32_t> colors;     // RGBA8, R lowest; 0xffffffff where the mesh has none
+  std::vector<uint32_t> colors;           // RGBA8, R lowest; 0xffffffff where the mesh has none
   std::vector<uint32_t> first_morph;      // vertex v has morphs[first_morph[v] .. first_morph[v + 1])
   std::vector<MorphEntry> morphs;         // ascending weight index within a vertex
   std::vector<uint32_t> first_influence;  // as above; at least one a vertex
@@ -62,7 +62,8 @@ std::vector<float> frame_weights(const Scene& scene, const Assembly& assembly, c
 // Rows of 3 x 4 matrices: row r of matrix m is element 3 * m + r.
 std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assembly, const Pose& pose);
 
-// Assembly positions in the world at a pose, evaluated on the CPU in the order and precision of the `blend` pass.
+// Assembly positions in the world at a pose, evaluated on the CPU in the order and precision of the `blend`
+// pass.
 std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
                                          const std::vector<glm::vec4>& matrices);
 

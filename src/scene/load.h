@@ -16,9 +16,9 @@ struct LoadOptions {
   float height_scale = 0;
 };
 
-// Reads `builtin:NAME`, .gltf .glb .obj .ply .stl, or a grey .png .exr .tif as a height map. Files that it names are
-// opened only inside its own folder. Throws Error(bad_input) with file, place and remedy; Error(usage) for an
-// unknown builtin or file type.
+// Reads `builtin:NAME`, .gltf .glb .obj .ply .stl, or a grey .png .exr .tif as a height map. Files that it
+// names are opened only inside its own folder. Throws Error(bad_input) with file, place and remedy;
+// Error(usage) for an unknown builtin or file type.
 Scene load(const std::string& spec, const LoadOptions& options = {});
 
 // The loaders behind it, one a file format, each in a file of its own.

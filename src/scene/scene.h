@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a file describes: meshes with morph targets and skins, a node hierarchy, animations, cameras, lights and
-// materials. Plain data; units are those of the file, angles radians, colours linear Rec. 709 unless said.
-// A Scene that a loader returns is valid: `validate` has passed.
+// What a file describes: meshes with morph targets and skins, a node hierarchy, animations, cameras, lights
+// and materials. Plain data; units are those of the file, angles radians, colours linear Rec. 709 unless
+// said. A Scene that a loader returns is valid: `validate` has passed.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace lodestone::scene {
 
 inline constexpr uint32_t none = 0xffffffffu;
 
-// One blendshape, sparse: deltas of the listed vertices, ascending, each listed once. `normals` and `tangents`
-// are empty or as long as `vertices`. Deltas add to the base before skinning (glTF 2.0, 3.7.2.2).
+// One blendshape, sparse: deltas of the listed vertices, ascending, each listed once. `normals` and
+// `tangents` are empty or as long as `vertices`. Deltas add to the base before skinning (glTF 2.0, 3.7.2.2).
 struct MorphTarget {
   std::string name;
   std::vector<uint32_t> vertices;
@@ -36,8 +36,8 @@ struct Part {
   uint32_t material = none;
 };
 
-// A rectangle of width x height samples (each at least 2), row by row, that a mesh is made of. Its quad (x, y)
-// has corners a = (x, y), b = (x+1, y), c = (x, y+1), d = (x+1, y+1) and is the mesh's triangles
+// A rectangle of width x height samples (each at least 2), row by row, that a mesh is made of. Its quad (x,
+// y) has corners a = (x, y), b = (x+1, y), c = (x, y+1), d = (x+1, y+1) and is the mesh's triangles
 // first_triangle + 2 * (y * (width - 1) + x) = (a, b, c) and the next one = (d, c, b).
 struct Grid {
   uint32_t width = 0, height = 0;
@@ -48,27 +48,28 @@ struct Grid {
 struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;      // as many as positions, unit length (loaders compute missing ones)
-  std::vector<glm::vec4> tangents;     // empty, or as many; w = +1 or -1 the sign of the bitangent
+  std::vector<glm::vec3> normals;       // as many as positions, unit length (loaders compute missing ones)
+  std::vector<glm::vec4> tangents;      // empty, or as many; w = +1 or -1 the sign of the bitangent
   std::vector<glm::vec2> texcoords[2];  // each empty, or as many
-  std::vector<glm::vec4> colors;       // empty, or as many
-  std::vector<glm::uvec3> triangles;   // in the order of the file (polygons fan-split)
-  std::vector<Part> parts;             // in order, covering all triangles
+  std::vector<glm::vec4> colors;        // empty, or as many
+  std::vector<glm::uvec3> triangles;    // in the order of the file (polygons fan-split)
+  std::vector<Part> parts;              // in order, covering all triangles
   std::vector<MorphTarget> targets;
-  std::vector<float> weights;          // default weights, one a target
+  std::vector<float> weights;  // default weights, one a target
   // Skin influences, by vertex: those of vertex v are influences[first_influence[v] .. first_influence[v+1]).
   // Both empty on a mesh without a skin. Weights are normalised to sum 1, zero ones dropped.
   std::vector<uint32_t> first_influence;
   std::vector<Influence> influences;
-  // Not empty where the whole mesh is made of grids: all its triangles in grid order. Borders shared by two grids
-  // list equal vertices (or vertices equal in position, deltas and influences, where attributes differ).
+  // Not empty where the whole mesh is made of grids: all its triangles in grid order. Borders shared by two
+  // grids list equal vertices (or vertices equal in position, deltas and influences, where attributes
+  // differ).
   std::vector<Grid> grids;
 };
 
 struct Skin {
   std::string name;
-  std::vector<uint32_t> joints;            // nodes
-  std::vector<glm::mat4> inverse_binds;    // one a joint
+  std::vector<uint32_t> joints;          // nodes
+  std::vector<glm::mat4> inverse_binds;  // one a joint
 };
 
 struct Camera {
@@ -78,15 +79,15 @@ struct Camera {
   float aspect = 0;               // 0: that of the image
   float xmag = 1, ymag = 1;       // half extents, orthographic only
   float znear = 0.01f, zfar = 0;  // 0: infinite
-};  // looks along -Z of its node, +Y up
+};                                // looks along -Z of its node, +Y up
 
 struct Light {
   enum class Kind : uint32_t { directional, point, spot };  // KHR_lights_punctual
   std::string name;
   Kind kind = Kind::point;
   glm::vec3 color{1};
-  float intensity = 1;   // candela (point, spot), lux (directional)
-  float range = 0;       // 0: infinite
+  float intensity = 1;  // candela (point, spot), lux (directional)
+  float range = 0;      // 0: infinite
   float inner_cone = 0, outer_cone = 0.7853982f;
 };  // shines along -Z of its node
 
@@ -107,8 +108,9 @@ struct Channel {
   uint32_t node = none;
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times;   // seconds, strictly ascending
-  // Values of 3, 4 (quaternion x y z w) or target-count floats a key; cubic_spline: in-tangent, value, out-tangent.
+  std::vector<float> times;  // seconds, strictly ascending
+  // Values of 3, 4 (quaternion x y z w) or target-count floats a key; cubic_spline: in-tangent, value,
+  // out-tangent.
   std::vector<float> values;
 };
 
@@ -146,7 +148,8 @@ struct Material {
   Texture base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
 };
 
-// The light from all directions that no surface blocks: bottom at -Y, horizon, top at +Y, blended by height; W/sr/m2.
+// The light from all directions that no surface blocks: bottom at -Y, horizon, top at +Y, blended by height;
+// W/sr/m2.
 struct Sky {
   glm::vec3 top{0}, horizon{0}, bottom{0};
 };
@@ -164,8 +167,8 @@ struct Scene {
   std::optional<Sky> sky;  // where a file says nothing the renderer lights the scene itself
 };
 
-// Throws Error(bad_input), naming scene.name, unless every index is in range, every array as long as it must be,
-// every number finite, every parent before its child, every weight count right.
+// Throws Error(bad_input), naming scene.name, unless every index is in range, every array as long as it must
+// be, every number finite, every parent before its child, every weight count right.
 void validate(const Scene& scene);
 
 }  // namespace lodestone::scene

@@ -64,6 +64,14 @@ TEST_F(Output, AFolderIsNoPlaceForAPicture) {
   EXPECT_EQ(run(tiny_render(place("x.png"))).code, 5);
 }
 
+TEST_F(Output, AFullDiskBehindStandardOutputIsAnError) {
+  ProcessOptions options;
+  options.output = "/dev/full";
+  const Result result = run({"info", "builtin:tiny"}, options);
+  EXPECT_EQ(result.code, 5);
+  EXPECT_EQ(result.err.rfind("lodestone: error: ", 0), 0u) << result.err;
+}
+
 TEST_F(Output, QuietSaysNothing) {
   const Result result = run(tiny_render(place("x##.png"), {"--frames", "0-2", "-q"}));
   EXPECT_EQ(result.code, 0);

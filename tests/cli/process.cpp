@@ -46,7 +46,8 @@ fs::path cache_folder() {
 
 [[noreturn]] void become_program(const std::vector<std::string>& arguments, const ProcessOptions& options,
                                  const Pipe& out, const Pipe& err) {
-  ::dup2(out.write_end(), STDOUT_FILENO);
+  ::dup2(options.output.empty() ? out.write_end() : ::open(options.output.c_str(), O_WRONLY | O_CLOEXEC),
+         STDOUT_FILENO);
   ::dup2(err.write_end(), STDERR_FILENO);
   ::setenv("LODESTONE_CACHE", cache_folder().c_str(), 1);
   for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);

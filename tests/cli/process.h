@@ -22,6 +22,7 @@ struct Result {
 struct ProcessOptions {
   std::map<std::string, std::string> environment{};  // on top of the test's own
   std::chrono::seconds limit{240};                   // then it is killed, and the test fails
+  std::string output{};  // a file that standard output goes to; empty: Result::out
   // Asked every few milliseconds; the first time that it says yes the program gets `signal`.
   std::function<bool()> signal_when{};
   int signal = 0;

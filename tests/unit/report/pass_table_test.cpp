@@ -43,6 +43,8 @@ TEST(PassTable, SaysNothingOfAPassThatOnlyCompiled) {
   const auto rows = lines(
       pass_table(sum_by_name({testing::device_dispatch("trace", 0, 3), testing::dispatch("shade", 3, 27)})));
   EXPECT_EQ(words(rows[2])[2], "-");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_NE(rows[3].find("not timed"), std::string::npos);
 }
 
 }  // namespace
