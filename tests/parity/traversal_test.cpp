@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // All traversals give the same hits, to the bit, on every device and for any number of threads.
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <bit>
 
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/grid_sphere.h"
@@ -69,6 +72,73 @@ TEST(Traversals, AgreeOnRaysThroughVerticesAndEdges) {
     add_ray(rays, {texels[t.x].x, texels[t.x].y, 3}, {0, 0, -1});  // along an axis
   }
   expect_all_equal(ready, rays);
+}
+
+// A stack of `count` triangles that a ray along z at (0.9, 0.9) misses, though it enters every one's bound,
+// before one that it hits.
+scene::Scene long_way(uint32_t count) {
+  scene::Mesh mesh;
+  const auto add = [&](float z, float reach) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(reach, 0), glm::vec2(0, reach)}) {
+      mesh.positions.emplace_back(corner, z);
+      mesh.normals.emplace_back(0, 0, 1);
+    }
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  };
+  for (uint32_t i = 0; i < count; ++i) add(static_cast<float>(i + 1) / static_cast<float>(count), 1);
+  add(-1, 3);
+  mesh.parts = {{0, count + 1, scene::none}};
+  scene::Scene scene;
+  scene.name = "long way";
+  scene.meshes = {mesh};
+  scene.nodes.emplace_back();
+  scene.nodes[0].mesh = 0;
+  return scene;
+}
+
+TEST(Traversals, GoOnWhereADeviceCutsLoops) {
+  const ReadyScene ready(long_way(24000));
+  Rays rays;
+  for (int i = 0; i < 16; ++i) add_ray(rays, {0.9f, 0.9f - 0.001f * static_cast<float>(i), 2}, {0, 0, -1});
+  for (const std::string& device : device_names()) {
+    const auto backend = open(device, {.counters = true});
+    for (const auto traversal : {render::Traversal::threaded, render::Traversal::octant}) {
+      render::Settings settings;
+      settings.width = settings.height = 8;
+      settings.traversal = traversal;
+      render::Renderer renderer(*backend, ready.scene, ready.assembly, ready.atlas, settings);
+      renderer.update(ready.pose(0));
+      renderer.load_rays(rays);
+      backend->finish();
+      renderer.trace_loaded();
+      uint64_t visits = 0;
+      for (const render::PassRecord& pass : backend->finish()) visits += pass.counters.node_visits;
+      EXPECT_GT(visits / 16, 65535u) << "the way is too short to show anything";
+      for (const glm::uvec4& hit : renderer.hits()) {
+        ASSERT_NE(hit.w, layout::no_index) << device;
+        EXPECT_EQ(std::bit_cast<float>(hit.x), 3.0f);
+      }
+    }
+  }
+}
+
+TEST(Traversals, AgreeAtEveryVectorWidth) {
+  const ReadyScene ready(grid_sphere(48));
+  Rays rays = primary_rays({1.5f, 1, 3}, {0, 0, 0}, 0.4f, 64);
+  const Rays more = random_rays({-1, -1, -1}, {1, 1, 1}, 4000, 9);
+  rays.insert(rays.end(), more.begin(), more.end());
+  const auto expected = hits_of(ready, "cpu", render::Traversal::threaded, rays);
+  const int64_t all = hwy::SupportedTargets();
+  int widths = 0;
+  for (int64_t rest = all; rest != 0; rest &= rest - 1) {
+    hwy::SetSupportedTargetsForTest(rest & -rest);
+    EXPECT_EQ(hits_of(ready, "cpu", render::Traversal::wide, rays), expected)
+        << hwy::TargetName(rest & -rest);
+    ++widths;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  EXPECT_GE(widths, 1);
 }
 
 }  // namespace

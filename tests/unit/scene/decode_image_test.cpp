@@ -87,20 +87,54 @@ TEST(DecodeImage, UnknownFormatsAreErrors) {
   expect_bad("GIF89a....", "neither PNG, JPEG nor WebP");
 }
 
+// The PNG checksum, bit by bit.
+uint32_t crc_of(std::string_view bytes) {
+  uint32_t crc = 0xffffffff;
+  for (char byte : bytes) {
+    crc ^= uint8_t(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (0xedb88320 & (0u - (crc & 1)));
+  }
+  return ~crc;
+}
+
+void put_big_endian(std::string& bytes, size_t at, uint32_t value) {
+  for (size_t i = 0; i < 4; ++i) bytes[at + i] = char(value >> (24 - 8 * i));
+}
+
 TEST(DecodeImage, SizesThatTheBytesCannotHoldAreErrors) {
-  std::string png = make_png(1, 1, 3, {1, 2, 3});
-  const auto with_size = [&](uint32_t width, uint32_t height) {
-    std::string changed = png;
-    for (size_t i = 0; i < 4; ++i) {
-      changed[16 + i] = char(width >> (24 - 8 * i));
-      changed[20 + i] = char(height >> (24 - 8 * i));
-    }
-    return changed;
+  const auto with_size = [](uint32_t width, uint32_t height) {
+    std::string png = make_png(1, 1, 3, {1, 2, 3});
+    put_big_endian(png, 16, width);
+    put_big_endian(png, 20, height);
+    put_big_endian(png, 29, crc_of(std::string_view(png).substr(12, 17)));
+    return png;
   };
-  // The checksum no longer fits either; what matters is that nothing is allocated for these.
+  EXPECT_EQ(decode(with_size(1, 1)).width, 1u);
+  expect_bad(with_size(16384, 8192), "can hold");
+  expect_bad(with_size(16384, 8193), "reduce it");
+  expect_bad(with_size(16385, 1), "reduce it");
   EXPECT_THROW(decode(with_size(0x7fffffff, 0x7fffffff)), Error);
-  EXPECT_THROW(decode(with_size(16384, 8192)), Error);
   EXPECT_THROW(decode(with_size(0, 0)), Error);
+}
+
+TEST(DecodeImage, DamagedChunksAreErrors) {
+  const std::string png = make_png(8, 8, 3, std::vector<uint8_t>(8 * 8 * 3, 50));
+  for (size_t at = 8; at < png.size(); ++at) {
+    std::string damaged = png;
+    damaged[at] = char(damaged[at] ^ 0x10);
+    EXPECT_THROW(decode(damaged), Error) << at << " of " << png.size();
+  }
+  EXPECT_EQ(decode(png + "behind the end").width, 8u);
+}
+
+TEST(DecodeImage, AJpegEndsAfterItsThumbnail) {
+  std::vector<uint8_t> samples(64 * 64 * 3);
+  for (size_t i = 0; i < samples.size(); ++i) samples[i] = uint8_t(i * i / 7);
+  std::string jpeg = encode("jpg", 64, 64, 3, OIIO::TypeDesc::UINT8, samples.data());
+  // An application segment of 8 bytes that holds an end marker.
+  jpeg.insert(2, std::string("\xff\xe5\x00\x08\xff\xd8\xff\xd9\x00\x00", 10));
+  EXPECT_EQ(decode(jpeg).width, 64u);
+  expect_bad(jpeg.substr(0, jpeg.size() / 2), "cut short");
 }
 
 TEST(DecodeImageFile, ReadsOtherFormatsToo) {
