@@ -117,7 +117,7 @@ TEST(Traversals, GoOnWhereADeviceCutsLoops) {
       EXPECT_GT(visits / 16, 65535u) << "the way is too short to show anything";
       for (const glm::uvec4& hit : renderer.hits()) {
         ASSERT_NE(hit.w, layout::no_index) << device;
-        EXPECT_EQ(std::bit_cast<float>(hit.x), 3.0f);
+        EXPECT_FLOAT_EQ(std::bit_cast<float>(hit.x), 3.0f);
       }
     }
   }
