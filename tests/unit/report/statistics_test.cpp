@@ -98,7 +98,7 @@ TEST(Statistics, ARunWithoutFramesHasNoRates) {
 TEST(Statistics, SurvivesAFileNameThatIsNoUtf8) {
   RunRecord run = testing::gpu_run();
   run.scene.file = "caf\xe9.obj";
-  EXPECT_NO_THROW(static_cast<void>(Json::parse(statistics_json(run))));
+  EXPECT_TRUE(Json::parse(statistics_json(run)).is_object());
 }
 
 }  // namespace
