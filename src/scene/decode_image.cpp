@@ -11,6 +11,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
+#include "lodestone/scene/encoded_image.h"
 
 namespace lodestone::scene {
 namespace {
@@ -33,29 +34,6 @@ std::string format_of(std::span<const std::byte> bytes) {
   if (starts_with(bytes, 0, "\xff\xd8\xff")) return "jpg";
   if (starts_with(bytes, 0, "RIFF") && starts_with(bytes, 8, "WEBP")) return "webp";
   return {};
-}
-
-// Whether a JPEG's entropy-coded data are followed by the end-of-image marker. The decoder fills what is
-// missing with grey and calls that a success. Walks the marker segments first: a thumbnail in one has an end
-// marker too.
-bool jpeg_is_whole(std::span<const std::byte> bytes) {
-  constexpr std::byte escape{0xff}, start_of_scan{0xda}, end_of_image{0xd9};
-  size_t at = 2;
-  while (at + 4 <= bytes.size() && bytes[at] == escape) {
-    const std::byte marker = bytes[at + 1];
-    if (marker == escape) {  // fill byte
-      ++at;
-      continue;
-    }
-    const size_t length =
-        (std::to_integer<size_t>(bytes[at + 2]) << 8) | std::to_integer<size_t>(bytes[at + 3]);
-    at += 2 + length;
-    if (marker == start_of_scan) break;
-  }
-  for (; at + 2 <= bytes.size(); ++at) {
-    if (bytes[at] == escape && bytes[at + 1] == end_of_image) return true;
-  }
-  return false;
 }
 
 std::string one_line(std::string text) {
@@ -120,9 +98,7 @@ OIIO::ImageSpec unassociated_alpha() {
 Image decode_image(std::span<const std::byte> bytes, const std::string& subject) {
   const std::string format = format_of(bytes);
   if (format.empty()) fail_input(subject, "is neither PNG, JPEG nor WebP; re-export it as one of them");
-  if (format == "jpg" && !jpeg_is_whole(bytes)) {
-    fail_input(subject, "is a JPEG that is cut short; re-export it");
-  }
+  check_encoded_image(bytes, subject);
   OIIO::Filesystem::IOMemReader reader(const_cast<std::byte*>(bytes.data()), bytes.size());
   OIIO::ImageSpec config = unassociated_alpha();
   void* proxy = static_cast<OIIO::Filesystem::IOProxy*>(&reader);

@@ -76,7 +76,7 @@ TEST(GltfTruncated, FlippedBytesNeverDoMoreThanFail) {
   const TemporaryFolder folder;
   std::mt19937 random(1);
   size_t loaded = 0, refused = 0;
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 1000; ++round) {
     std::string changed = whole;
     for (int flips = 1 + round % 4; flips > 0; --flips) changed[random() % changed.size()] = char(random());
     const std::filesystem::path path = folder.write("scene.glb", changed);
