@@ -14,7 +14,6 @@ namespace {
 
 constexpr uint32_t max_spp = 65536;
 constexpr uint32_t max_threads = 4096;
-constexpr double float_limit = std::numeric_limits<float>::max();
 
 }  // namespace
 

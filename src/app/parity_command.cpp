@@ -59,7 +59,7 @@ std::string table(const std::vector<PassDifference>& differences) {
   std::string text = fmt::format(fmt::runtime(row), "pass", "buffer", "dispatches", "words", "different",
                                  "first difference: device, CPU");
   for (const PassDifference& difference : differences) {
-    const std::string first = difference.different == 0 ? ""
+    const std::string first = difference.different == 0 ? "-"
                                                         : fmt::format("word {}: {}, {}", difference.first,
                                                                       word_text(difference.device_value),
                                                                       word_text(difference.reference_value));

@@ -59,7 +59,7 @@ TEST_F(Interrupt, StopsAFrameThatIsInProgress) {
                              "4096x4096", "--spp", "65536"},
                             options);
   EXPECT_EQ(result.code, 130);
-  EXPECT_LT(result.seconds, 15) << "a signal after 5 s must end the frame within about a second";
+  EXPECT_LT(result.seconds_after_signal, 10) << "the rest of the frame would take hours";
   EXPECT_TRUE(files().empty());
 }
 

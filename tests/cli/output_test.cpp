@@ -52,7 +52,7 @@ TEST_F(Output, APlaceThatCannotBeWrittenIsRefusedBeforeRendering) {
     const bool picture = std::string(option) == "-o";
     arguments.insert(arguments.end(), {"-o", picture ? place("file/x.png") : place("x.png")});
     if (!picture) arguments.insert(arguments.end(), {option, place("file/x.json")});
-    const Result result = run(arguments, {.limit = std::chrono::seconds(20)});
+    const Result result = run(arguments);
     EXPECT_EQ(result.code, 5) << option;
     EXPECT_EQ(result.err.rfind("lodestone: error: " + place("file/x"), 0), 0u) << result.err;
   }

@@ -69,6 +69,7 @@ bool drain(int file, std::string& text) {
 // Collects the output until both pipes end, sending the signal and keeping the time limit meanwhile.
 void collect(pid_t child, const ProcessOptions& options, Pipe& out, Pipe& err, Result& result) {
   const Clock::time_point end = Clock::now() + options.limit;
+  Clock::time_point signalled_at{};
   bool signalled = !options.signal_when, killed = false, out_open = true, err_open = true;
   while (out_open || err_open) {
     pollfd files[2] = {{out_open ? out.read_end() : -1, POLLIN, 0},
@@ -79,6 +80,7 @@ void collect(pid_t child, const ProcessOptions& options, Pipe& out, Pipe& err, R
     if (!signalled && options.signal_when()) {
       ::kill(child, options.signal);
       signalled = true;
+      signalled_at = Clock::now();
     }
     if (!killed && Clock::now() > end) {
       ADD_FAILURE() << "the program did not end within " << options.limit.count() << " s";
@@ -86,12 +88,13 @@ void collect(pid_t child, const ProcessOptions& options, Pipe& out, Pipe& err, R
       killed = true;
     }
   }
+  if (signalled_at != Clock::time_point{})
+    result.seconds_after_signal = std::chrono::duration<double>(Clock::now() - signalled_at).count();
 }
 
 }  // namespace
 
 Result run(const std::vector<std::string>& arguments, const ProcessOptions& options) {
-  const Clock::time_point begin = Clock::now();
   Pipe out, err;
   const pid_t child = ::fork();
   if (child == 0) become_program(arguments, options, out, err);
@@ -102,7 +105,6 @@ Result run(const std::vector<std::string>& arguments, const ProcessOptions& opti
   int status = 0;
   ::waitpid(child, &status, 0);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace lodestone::cli {
 struct Result {
   int code = 0;  // exit code; 128 + N where signal N ended it
   std::string out, err;
-  double seconds = 0;
+  double seconds_after_signal = 0;  // that it went on; 0 where it got none
 };
 
 struct ProcessOptions {
