@@ -12,6 +12,7 @@
 #include "lodestone/cpu_fallback/kernel.h"
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/cpu_fallback/passes/trace_wide.h"
+#include "lodestone/cpu_fallback/passes/wide_nodes.h"
 
 namespace lodestone::cpu_fallback {
 namespace {
@@ -27,6 +28,7 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/rasterise", rasterise},
       {"geometry_image/bounds_leaves", bounds_leaves},
       {"geometry_image/bounds", bounds},
+      {"geometry_image/wide_nodes", wide_nodes},
       {"geometry_image/camera", camera},
       {"geometry_image/trace_threaded", trace_threaded},
       {"geometry_image/trace_octant", trace_octant},

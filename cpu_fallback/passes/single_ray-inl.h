@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One ray against the 16 grandchildren of a node at once: they stand side by side in memory.
-// Included once a SIMD target.
+// One ray against the 16 grandchildren of a node at once (wide_nodes.h), and against the quads it enters
+// several at a time. Included once a SIMD target.
 
 #if defined(LODESTONE_SINGLE_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LODESTONE_SINGLE_RAY_INL_H_
@@ -9,83 +9,236 @@
 #define LODESTONE_SINGLE_RAY_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "lodestone/cpu_fallback/passes/trace_block.h"
+#include "lodestone/cpu_fallback/passes/wide_nodes.h"
+#include "lodestone/layout/bounds.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Boxes = hn::CappedTag<float, 16>;
+using Boxes = hn::CappedTag<float, wide_fan>;
 
-// A ray in all lanes. Planes are chosen by masks: a choice by branch goes through memory.
-struct RayLanes {
-  hn::Vec<Boxes> near_x, near_y, near_z, far_x, far_y, far_z, inverse_x, inverse_y, inverse_z, tmin;
-  hn::Mask<Boxes> back_x, back_y, back_z;  // the direction's component is negative
+// The distance to plane q of an axis is q * scale + offset, and no sharper than layout's slab distance to the
+// plane that q was rounded from: `slack` covers the rounding on both sides, which is below 2^-22 of the
+// largest terms.
+struct SlabLanes {
+  float scale, near_offset, far_offset;
+  uint32_t near_plane;  // 0: the low one comes first along the ray
 };
 
-HWY_ATTR inline RayLanes make_lanes(const layout::Ray& ray, const layout::Slabs& s) {
-  const Boxes d;
-  const auto zero = hn::Zero(d);
-  return {hn::Set(d, s.near_origin.x),
-          hn::Set(d, s.near_origin.y),
-          hn::Set(d, s.near_origin.z),
-          hn::Set(d, s.far_origin.x),
-          hn::Set(d, s.far_origin.y),
-          hn::Set(d, s.far_origin.z),
-          hn::Set(d, s.inverse.x),
-          hn::Set(d, s.inverse.y),
-          hn::Set(d, s.inverse.z),
-          hn::Set(d, ray.tmin),
-          hn::Lt(hn::Set(d, ray.direction.x), zero),
-          hn::Lt(hn::Set(d, ray.direction.y), zero),
-          hn::Lt(hn::Set(d, ray.direction.z), zero)};
+HWY_ATTR inline SlabLanes slab_lanes(float base, float step, float near_origin, float far_origin,
+                                     float inverse) {
+  const float scale = step * inverse, near_offset = (base - near_origin) * inverse,
+              far_offset = (base - far_origin) * inverse;
+  const float reach = std::abs(scale) * 65536.0f;
+  return {scale, near_offset - (reach + std::abs(near_offset)) * 0x1p-21f,
+          far_offset + (reach + std::abs(far_offset)) * 0x1p-21f, inverse < 0 ? 1u : 0u};
 }
 
-// Tests `count` (at most 16) nodes from `address` on; returns the bits of those entered before `tmax` and
-// their distances.
-template <class Block>
-HWY_ATTR inline uint32_t test_boxes(const Block& block, const RayLanes& ray, uint32_t address, uint32_t count,
-                                    float tmax, float* HWY_RESTRICT enter) {
+// A ray made ready.
+struct SingleRay {
+  layout::Ray ray;
+  layout::Slabs slabs;
+  layout::Shear shear;
+  SlabLanes axes[3];
+
+  HWY_ATTR SingleRay(const layout::Ray& r, float extent, const WideGrid& grid)
+      : ray(r), slabs(layout::make_slabs(r, extent)), shear(layout::make_shear(r)) {
+    for (int i = 0; i < 3; ++i) {
+      axes[i] =
+          slab_lanes(grid.base[i], grid.step[i], slabs.near_origin[i], slabs.far_origin[i], slabs.inverse[i]);
+    }
+  }
+};
+
+HWY_ATTR inline hn::Vec<Boxes> plane_distances(const uint16_t* HWY_RESTRICT planes, float scale,
+                                               float offset) {
   const Boxes d;
-  const auto limit = hn::Set(d, tmax);
-  const size_t lanes = hn::Lanes(d);
+  const hn::RebindToSigned<Boxes> di;
+  const hn::Rebind<uint16_t, Boxes> du16;
+  const auto steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(du16, planes)));
+  return hn::MulAdd(steps, hn::Set(d, scale), hn::Set(d, offset));
+}
+
+// The bits of those children of a record that the ray enters before `tmax`, and how far away they are at
+// least.
+HWY_ATTR inline uint32_t test_boxes(const WideNode& node, const SingleRay& ray, float tmax,
+                                    float* HWY_RESTRICT enter) {
+  const Boxes d;
   uint32_t hits = 0;
-  for (uint32_t first = 0; first < count; first += lanes) {
-    hn::Vec<Boxes> lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, unused;
-    hn::LoadInterleaved4(d, block.nodes_lo(address + first), lo_x, lo_y, lo_z, unused);
-    hn::LoadInterleaved4(d, block.nodes_hi(address + first), hi_x, hi_y, hi_z, unused);
-    const auto enter_x = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_x, hi_x, lo_x), ray.near_x), ray.inverse_x);
-    const auto enter_y = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_y, hi_y, lo_y), ray.near_y), ray.inverse_y);
-    const auto enter_z = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_z, hi_z, lo_z), ray.near_z), ray.inverse_z);
-    const auto exit_x = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_x, lo_x, hi_x), ray.far_x), ray.inverse_x);
-    const auto exit_y = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_y, lo_y, hi_y), ray.far_y), ray.inverse_y);
-    const auto exit_z = hn::Mul(hn::Sub(hn::IfThenElse(ray.back_z, lo_z, hi_z), ray.far_z), ray.inverse_z);
-    const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, ray.tmin));
-    const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, limit));
-    hn::StoreU(from, d, enter + first);
+  const auto& [x, y, z] = ray.axes;
+  for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
+    const auto enter_x = plane_distances(node.planes[0][x.near_plane] + i, x.scale, x.near_offset);
+    const auto enter_y = plane_distances(node.planes[1][y.near_plane] + i, y.scale, y.near_offset);
+    const auto enter_z = plane_distances(node.planes[2][z.near_plane] + i, z.scale, z.near_offset);
+    const auto exit_x = plane_distances(node.planes[0][x.near_plane ^ 1] + i, x.scale, x.far_offset);
+    const auto exit_y = plane_distances(node.planes[1][y.near_plane ^ 1] + i, y.scale, y.far_offset);
+    const auto exit_z = plane_distances(node.planes[2][z.near_plane ^ 1] + i, z.scale, z.far_offset);
+    const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, hn::Set(d, ray.ray.tmin)));
+    const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, hn::Set(d, tmax)));
+    hn::StoreU(from, d, enter + i);
     uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hn::Le(from, to), bits);
-    hits |= (uint32_t(bits[0]) | uint32_t(bits[1]) << 8) << first;
+    hits |= (uint32_t(bits[0]) | uint32_t(bits[1]) << 8) << i;
   }
-  return hits & ((1u << count) - 1);
+  return hits;
+}
+
+// The exact test of one quad whose edge functions have let the ray through.
+template <class Block>
+HWY_ATTR HWY_NOINLINE void accept_quad(const Block& block, const SingleRay& ray, uint32_t texel,
+                                       uint32_t stride, layout::Hit& best) {
+  const glm::vec3 a = block.texel(texel), b = block.texel(texel + 1);
+  const glm::vec3 c = block.texel(texel + stride), e = block.texel(texel + stride + 1);
+  const layout::Bound bound = layout::quad_bound(a, b, c, e);
+  const float enter = layout::slab_enter(ray.slabs, bound.lo, bound.hi, ray.ray.tmin);
+  if (!(enter <= layout::slab_exit(ray.slabs, bound.lo, bound.hi, best.t))) return;
+  layout::intersect_quad(a, b, c, e, ray.ray, ray.shear, enter, texel, best);
+}
+
+// Quads are tested in the blocks of four lanes of a vector, a corner a lane. (A vector of unknown length
+// counts as one block.)
+#if HWY_TARGET != HWY_SCALAR
+#if HWY_HAVE_SCALABLE
+constexpr size_t corner_lanes = 4;
+#else
+constexpr size_t corner_lanes = HWY_MAX_BYTES / sizeof(float);
+#endif
+constexpr uint32_t quads_at_once = corner_lanes / 4;
+using Corners = hn::FixedTag<float, corner_lanes>;
+
+template <size_t lanes>
+HWY_ATTR inline auto load_blocks(const float* const* from) {
+  const hn::FixedTag<float, lanes> d;
+  if constexpr (lanes == 4) {
+    return hn::LoadU(d, *from);
+  } else {
+    return hn::Combine(d, load_blocks<lanes / 2>(from + lanes / 8), load_blocks<lanes / 2>(from));
+  }
+}
+
+struct Indices {
+  alignas(64) int32_t lane[corner_lanes];
+};
+constexpr Indices in_blocks(int32_t a, int32_t b, int32_t c, int32_t e) {
+  Indices indices{};
+  const int32_t block[4] = {a, b, c, e};
+  for (size_t i = 0; i < corner_lanes; ++i) indices.lane[i] = block[i % 4] + static_cast<int32_t>(i / 4 * 4);
+  return indices;
+}
+
+// layout::intersect_quad's edge functions for up to `quads_at_once` quads; returns a bit a quad: the ray
+// passes one of its triangles.
+template <class Block>
+HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, const uint32_t* texels,
+                                    const uint32_t* strides) {
+  const Corners d;
+  const hn::Repartition<uint64_t, Corners> pairs;
+  const float* from[4][quads_at_once];
+  for (uint32_t i = 0; i < quads_at_once; ++i) {
+    from[0][i] = block.texels(texels[i]);
+    from[1][i] = from[0][i] + 4;
+    from[2][i] = block.texels(texels[i] + strides[i]);
+    from[3][i] = from[2][i] + 4;
+  }
+  const auto a = load_blocks<corner_lanes>(from[0]), b = load_blocks<corner_lanes>(from[1]);
+  const auto c = load_blocks<corner_lanes>(from[2]), e = load_blocks<corner_lanes>(from[3]);
+  const auto ab = hn::BitCast(pairs, hn::InterleaveLower(d, a, b)),
+             ce = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+  const auto ab_z = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b)),
+             ce_z = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+  const auto x = hn::Sub(hn::BitCast(d, hn::InterleaveLower(pairs, ab, ce)), hn::Set(d, ray.ray.origin.x));
+  const auto y = hn::Sub(hn::BitCast(d, hn::InterleaveUpper(pairs, ab, ce)), hn::Set(d, ray.ray.origin.y));
+  const auto z =
+      hn::Sub(hn::BitCast(d, hn::InterleaveLower(pairs, ab_z, ce_z)), hn::Set(d, ray.ray.origin.z));
+  const hn::RebindToUnsigned<Corners> du;
+  const auto axis = hn::Set(du, ray.shear.axis);
+  const auto along_x = hn::RebindMask(d, hn::Eq(axis, hn::Zero(du))),
+             along_y = hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 1)));
+  const auto depth = hn::IfThenElse(along_x, x, hn::IfThenElse(along_y, y, z));
+  const auto px = hn::Sub(hn::IfThenElse(along_x, y, hn::IfThenElse(along_y, z, x)),
+                          hn::Mul(hn::Set(d, ray.shear.x), depth));
+  const auto py = hn::Sub(hn::IfThenElse(along_x, z, hn::IfThenElse(along_y, x, y)),
+                          hn::Mul(hn::Set(d, ray.shear.y), depth));
+  // Edges a b, b c, c a, d c in the block's lanes; b d in all of them.
+  static constexpr Indices ends = in_blocks(1, 2, 0, 2), bs = in_blocks(1, 1, 1, 1),
+                           ds = in_blocks(3, 3, 3, 3);
+  const auto to = hn::SetTableIndices(d, ends.lane), at_b = hn::SetTableIndices(d, bs.lane),
+             at_d = hn::SetTableIndices(d, ds.lane);
+  const auto edges =
+      hn::Sub(hn::Mul(px, hn::TableLookupLanes(py, to)), hn::Mul(py, hn::TableLookupLanes(px, to)));
+  const auto bd = hn::Sub(hn::Mul(hn::TableLookupLanes(px, at_b), hn::TableLookupLanes(py, at_d)),
+                          hn::Mul(hn::TableLookupLanes(py, at_b), hn::TableLookupLanes(px, at_d)));
+  const auto zero = hn::Zero(d);
+  const auto bits = [&](hn::Mask<Corners> mask) HWY_ATTR {
+    uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    return uint32_t(bytes[0]) | uint32_t(bytes[1]) << 8;
+  };
+  const uint32_t plus = bits(hn::Ge(edges, zero)), minus = bits(hn::Le(edges, zero));
+  const uint32_t bd_plus = bits(hn::Ge(bd, zero)), bd_minus = bits(hn::Le(bd, zero));
+  uint32_t passed = 0;
+  for (uint32_t i = 0; i < quads_at_once; ++i) {
+    const uint32_t p = plus >> (4 * i), m = minus >> (4 * i);
+    const bool first = (p & 7) == 7 || (m & 7) == 7;
+    // d c b has the edge b c the other way round: its function has the other sign.
+    const bool second = ((m & 2) != 0 && (p & 8) != 0 && (bd_plus >> (4 * i) & 1) != 0) ||
+                        ((p & 2) != 0 && (m & 8) != 0 && (bd_minus >> (4 * i) & 1) != 0);
+    if (first || second) passed |= 1u << i;
+  }
+  return passed;
+}
+#endif
+
+// The quads of a record's children `hits`.
+template <class Block>
+HWY_ATTR inline void test_quads(Block& block, const SingleRay& ray, uint32_t first_slot, uint32_t hits,
+                                const float* enter, layout::Hit& best) {
+#if HWY_TARGET == HWY_SCALAR
+  constexpr uint32_t quads_at_once = 1;
+#endif
+  uint32_t texels[quads_at_once], strides[quads_at_once];
+  while (hits != 0) {
+    uint32_t count = 0;
+    for (; hits != 0 && count < quads_at_once; hits &= hits - 1) {
+      const auto child = static_cast<uint32_t>(std::countr_zero(hits));
+      if (enter[child] > best.t || !block.leaf(first_slot + child, texels[count], strides[count])) continue;
+      ++count;
+    }
+    if (count == 0) return;
+    block.count_quads(count);
+#if HWY_TARGET == HWY_SCALAR
+    accept_quad(block, ray, texels[0], strides[0], best);
+#else
+    for (uint32_t i = count; i < quads_at_once; ++i) {
+      texels[i] = texels[0];
+      strides[i] = strides[0];
+    }
+    uint32_t passed = pass_edges(block, ray, texels, strides) & ((1u << count) - 1);
+    for (; passed != 0; passed &= passed - 1) {
+      const auto i = static_cast<uint32_t>(std::countr_zero(passed));
+      accept_quad(block, ray, texels[i], strides[i], best);
+    }
+#endif
+  }
 }
 
 struct StackEntry {
   float enter;
-  uint32_t index;
-  uint32_t level;
+  uint32_t record;
 };
 
-// Puts the entered nodes on the stack, the nearest last.
+// Puts the children of `record` that were entered on the stack, the nearest last. `end`: records there are.
 HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t hits, const float* enter,
-                                     uint32_t index, uint32_t level) {
+                                     uint32_t record, uint32_t end) {
   const uint32_t bottom = size;
   for (; hits != 0; hits &= hits - 1) {
     const auto child = static_cast<uint32_t>(std::countr_zero(hits));
-    const StackEntry entry{enter[child], index + child, level};
+    const StackEntry entry{enter[child], wide_fan * record + 1 + child};
+    if (entry.record >= end) continue;  // an empty child, entered by rounding
     uint32_t place = size++;
     for (; place > bottom && stack[place - 1].enter < entry.enter; --place) stack[place] = stack[place - 1];
     stack[place] = entry;
@@ -93,105 +246,34 @@ HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t 
   return size;
 }
 
-// layout::intersect_quad with the four corners in four lanes.
-template <class Block>
-HWY_ATTR inline void test_quad(Block& block, const layout::Ray& ray, const layout::Shear& shear,
-                               uint32_t address, float enter, layout::Hit& best) {
-  const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
-  block.count_quad(1);
-#if HWY_TARGET == HWY_SCALAR
-  layout::intersect_quad(block.texel(texel), block.texel(texel + 1), block.texel(texel + stride),
-                         block.texel(texel + stride + 1), ray, shear, enter, texel, best);
-#else
-  const hn::FixedTag<float, 4> d;
-  const auto a = hn::LoadU(d, block.texels(texel)), b = hn::LoadU(d, block.texels(texel + 1));
-  const auto c = hn::LoadU(d, block.texels(texel + stride)),
-             e = hn::LoadU(d, block.texels(texel + stride + 1));
-  const auto ab = hn::InterleaveLower(d, a, b), ce = hn::InterleaveLower(d, c, e);
-  const auto x = hn::Sub(hn::ConcatLowerLower(d, ce, ab), hn::Set(d, ray.origin.x));
-  const auto y = hn::Sub(hn::ConcatUpperUpper(d, ce, ab), hn::Set(d, ray.origin.y));
-  const auto z = hn::Sub(hn::ConcatLowerLower(d, hn::InterleaveUpper(d, c, e), hn::InterleaveUpper(d, a, b)),
-                         hn::Set(d, ray.origin.z));
-  const hn::RebindToUnsigned<decltype(d)> du;
-  const auto axis = hn::Set(du, shear.axis);
-  const auto along_x = hn::RebindMask(d, hn::Eq(axis, hn::Zero(du))),
-             along_y = hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 1)));
-  const auto depth = hn::IfThenElse(along_x, x, hn::IfThenElse(along_y, y, z));
-  const auto px =
-      hn::Sub(hn::IfThenElse(along_x, y, hn::IfThenElse(along_y, z, x)), hn::Mul(hn::Set(d, shear.x), depth));
-  const auto py =
-      hn::Sub(hn::IfThenElse(along_x, z, hn::IfThenElse(along_y, x, y)), hn::Mul(hn::Set(d, shear.y), depth));
-  // Edges a b, b c, c a and d c at once; b d by itself.
-  alignas(16) static constexpr int32_t ends[4] = {1, 2, 0, 2};
-  const auto to = hn::SetTableIndices(d, ends);
-  const auto edges =
-      hn::Sub(hn::Mul(px, hn::TableLookupLanes(py, to)), hn::Mul(py, hn::TableLookupLanes(px, to)));
-  alignas(16) float w[4], corner_x[4], corner_y[4], t[4];
-  hn::Store(edges, d, w);
-  hn::Store(px, d, corner_x);
-  hn::Store(py, d, corner_y);
-  const float bd = corner_x[1] * corner_y[3] - corner_y[1] * corner_x[3];
-  const bool first = layout::one_sided(w[1], w[2], w[0]), second = layout::one_sided(-w[1], bd, w[3]);
-  if (!first && !second) return;
-  hn::Store(hn::Mul(hn::Set(d, shear.z), depth), d, t);
-  const glm::vec3 ta(0, 0, t[0]), tb(0, 0, t[1]), tc(0, 0, t[2]), td(0, 0, t[3]);
-  layout::accept_triangle(ta, tb, tc, w[1], w[2], w[0], ray.tmin, enter, 2 * texel, best);
-  layout::accept_triangle(td, tc, tb, -w[1], bd, w[3], ray.tmin, enter, 2 * texel + 1, best);
-#endif
-}
-
 template <class Block>
 HWY_ATTR inline void trace_single(Block& block, uint32_t index) {
   if (!block.wanted(index)) return;
-  const layout::Ray ray = block.ray(index);
-  layout::Hit best{ray.tmax, 0, 0, layout::no_index};
+  layout::Ray given = block.ray(index);
+  layout::Hit best{given.tmax, 0, 0, layout::no_index};
   uint32_t visits = 0;
-  if (!(ray.tmax < 0.0f)) {
-    const RayLanes slabs = make_lanes(ray, layout::make_slabs(ray, block.extent()));
-    const layout::Shear shear = layout::make_shear(ray);
-    const uint32_t depth = block.depth();
-    // Two levels a step, so that the last step ends on the leaves: from the root's children where the depth
-    // is odd.
-    StackEntry stack[16 * (layout::max_depth / 2 + 1)];
+  if (!(given.tmax < 0.0f)) {
+    const SingleRay ray(given, block.extent(), block.grid());
+    StackEntry stack[wide_fan * (layout::max_depth / 2 + 1)];
     uint32_t size = 0;
-    alignas(64) float enter[16];
-    uint32_t level = depth % 2 == 0 ? 2 : 1, first = 0;
+    HWY_ALIGN float enter[wide_fan];
+    uint32_t record = 0;
     for (;;) {
-      const uint32_t fan = level == 1 ? 4 : 16;
-      const uint32_t count = std::min(fan, block.places(level) - first);
-      uint32_t hits = test_boxes(block, slabs, layout::level_base(level) + first, count, best.t, enter);
-      block.count_step(count, count, 1, 1);
+      uint32_t hits = test_boxes(block.wide_node(record), ray, best.t, enter);
+      block.count_record();
       ++visits;
-      if (level == depth) {
-        for (uint32_t rest = hits; rest != 0; rest &= rest - 1) {
-          const uint32_t leaf =
-              layout::level_base(level) + first + static_cast<uint32_t>(std::countr_zero(rest));
-          hwy::Prefetch(block.texels(block.leaf_texel(leaf)));
-          hwy::Prefetch(block.texels(block.leaf_texel(leaf) + block.leaf_stride(leaf)));
-        }
-        while (hits != 0) {
-          // Nearest first: often the others then lie behind the hit.
-          uint32_t nearest = static_cast<uint32_t>(std::countr_zero(hits));
-          for (uint32_t rest = hits & (hits - 1); rest != 0; rest &= rest - 1) {
-            const auto other = static_cast<uint32_t>(std::countr_zero(rest));
-            if (enter[other] < enter[nearest]) nearest = other;
-          }
-          hits &= ~(1u << nearest);
-          if (enter[nearest] > best.t) break;
-          test_quad(block, ray, shear, layout::level_base(level) + first + nearest, enter[nearest], best);
-        }
+      if (record >= block.first_leaf_record()) {
+        test_quads(block, ray, (record - block.first_leaf_record()) * wide_fan, hits, enter, best);
         if (block.any_hit() && best.primitive != layout::no_index) break;
       } else {
-        size = push_sorted(stack, size, hits, enter, first, level);
+        size = push_sorted(stack, size, hits, enter, record, block.end_record());
       }
       while (size != 0 && stack[size - 1].enter > best.t) --size;
       if (size == 0) break;
-      const StackEntry next = stack[--size];
-      level = next.level + 2;
-      first = 16 * next.index;
+      record = stack[--size].record;
     }
   }
-  block.finish(index, ray, best, visits);
+  block.finish(index, given, best, visits);
 }
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lodestone/cpu_fallback/passes/trace_kernel.h"
+#include "lodestone/cpu_fallback/passes/wide_nodes.h"
 
 namespace lodestone::cpu_fallback {
 
@@ -18,18 +19,15 @@ class TraceBlock : public TraceKernel<Probe> {
   static constexpr bool counting = Probe::counting;
 
   explicit TraceBlock(const CpuDispatch& dispatch)
-      : TraceKernel<Probe>(dispatch), extent_(this->scene_extent()) {
-    for (uint32_t level = 0; level <= depth(); ++level) {
-      const uint32_t shift = 2 * (depth() - level);
-      const uint64_t used = (uint64_t(this->push_.slots) + (uint64_t(1) << shift) - 1) >> shift;
-      places_[level] =
-          static_cast<uint32_t>(std::min<uint64_t>(uint64_t(1) << (2 * level), (used + 3) / 4 * 4));
-    }
-  }
+      : TraceKernel<Probe>(dispatch),
+        extent_(this->scene_extent()),
+        grid_(as_vec3(this->nodes_lo_.load4(0)), as_vec3(this->nodes_hi_.load4(0))),
+        first_leaf_record_(levels_.first(levels_.count() - 1)),
+        end_record_(levels_.end()) {}
 
   uint32_t depth() const { return this->push_.depth; }
-  uint32_t places(uint32_t level) const { return places_[level]; }
   float extent() const { return extent_; }
+  const WideGrid& grid() const { return grid_; }
   bool any_hit() const { return TraceKernel<Probe>::any_hit(); }
 
   // Do these rays go together? All of one octant, from nearby origins, in a narrow cone.
@@ -83,10 +81,37 @@ class TraceBlock : public TraceKernel<Probe> {
     }
   }
 
-  // One quad was read and tested against `rays` rays.
+  // One record of 16 bounds was read and tested against one ray.
+  void count_record() {
+    if constexpr (Probe::counting) {
+      render::Counters& c = this->probe.counts;
+      c.node_visits += wide_fan;
+      c.box_tests += wide_fan;
+      c.bytes_read += sizeof(WideNode);
+      ++c.lane_steps;
+      ++c.subgroup_steps;
+    }
+  }
+
+  // One quad was read and tested against `rays` rays; `count` quads against one.
   void count_quad(uint32_t rays) {
     this->probe.triangles(2 * rays);
     this->probe.read(18);
+  }
+  void count_quads(uint32_t count) {
+    this->probe.triangles(2 * count);
+    this->probe.read(18 * count);
+  }
+
+  const WideNode& wide_node(uint32_t record) const { return wide_[record]; }
+  uint32_t first_leaf_record() const { return first_leaf_record_; }
+  uint32_t end_record() const { return end_record_; }
+  // The quad of a slot; false: there is none.
+  bool leaf(uint32_t slot, uint32_t& texel, uint32_t& stride) const {
+    if (slot >= this->push_.slots) return false;
+    texel = leaf_map_.load1(2 * uint64_t(slot));
+    stride = leaf_map_.load1(2 * uint64_t(slot) + 1);
+    return texel != layout::empty_slot;
   }
 
   // 8 floats a node in two arrays: lo x y z, order or leaf; hi x y z, stride.
@@ -111,8 +136,12 @@ class TraceBlock : public TraceKernel<Probe> {
     return (ray.direction.x < 0 ? 1 : 0) | (ray.direction.y < 0 ? 2 : 0) | (ray.direction.z < 0 ? 4 : 0);
   }
 
+  const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(9).words);
+  Words leaf_map_ = this->words(10);
+  render::WideLevels levels_{this->push_.depth, this->push_.slots};
   float extent_;
-  uint32_t places_[layout::max_depth + 1] = {};
+  WideGrid grid_;
+  uint32_t first_leaf_record_, end_record_;
 };
 
 }  // namespace lodestone::cpu_fallback

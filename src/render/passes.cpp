@@ -36,6 +36,16 @@ constexpr Binding trace_bindings[] = {
     {"geometry", quad, read},     {"links", word, read},       {"hits", quad, read_write},
     {"states", quad, read_write}, {"steps", word, read_write}, {"pending", structs, read_write}};
 
+// The CPU's traversal: the same and two more.
+constexpr Binding trace_wide_bindings[] = {
+    {"rays", quad, read},          {"nodes_lo", quad, read},    {"nodes_hi", quad, read},
+    {"geometry", quad, read},      {"links", word, read},       {"hits", quad, read_write},
+    {"states", quad, read_write},  {"steps", word, read_write}, {"pending", structs, read_write},
+    {"wide_nodes", structs, read}, {"leaf_map", word, read}};
+
+constexpr Binding wide_nodes_bindings[] = {
+    {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"wide_nodes", structs, write}};
+
 #define SURFACE_BINDINGS                                                                                 \
   {"hits", quad, read}, {"geometry", quad, read}, {"normal_map", quad, read}, {"texel_map", quad, read}, \
       {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read},                     \
@@ -78,14 +88,15 @@ const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bind
 const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings,
                              sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
+const PassDecl wide_nodes{"bounds", "geometry_image/wide_nodes", wide_nodes_bindings, sizeof(BoundsPush)};
 const PassDecl camera{"camera", "geometry_image/camera", camera_bindings, sizeof(RayPush)};
 const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_bindings, sizeof(TracePush)};
 const PassDecl trace_octant{"trace", "geometry_image/trace_octant", trace_bindings, sizeof(TracePush)};
-const PassDecl trace_wide{"trace", "geometry_image/trace_wide", trace_bindings, sizeof(TracePush)};
+const PassDecl trace_wide{"trace", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
 const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_bindings,
                                 sizeof(TracePush)};
 const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_bindings, sizeof(TracePush)};
-const PassDecl occlude_wide{"occlude", "geometry_image/trace_wide", trace_bindings, sizeof(TracePush)};
+const PassDecl occlude_wide{"occlude", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
 const PassDecl accumulate{"accumulate", "geometry_image/accumulate", accumulate_bindings, sizeof(CountPush)};

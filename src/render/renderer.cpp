@@ -50,7 +50,8 @@ struct Renderer::State {
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
-  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map, nodes_lo, nodes_hi, links;
+  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map, nodes_lo, nodes_hi,
+      wide_nodes, links;
   Buffer frame, lights, pending;
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
@@ -116,6 +117,10 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   normal_map = Buffer(device, {"normal_map", texels, 16});
   nodes_lo = Buffer(device, {"nodes_lo", levels.nodes(), 16});
   nodes_hi = Buffer(device, {"nodes_hi", levels.nodes(), 16});
+  if (traversal == Traversal::wide) {
+    const WideLevels wide(levels.depth(), levels.slots());
+    wide_nodes = Buffer(device, {"wide_nodes", wide.end(), wide_node_bytes});
+  }
   links = Buffer(device, {"links", 2 * levels.nodes(), 4});
   pending = Buffer(device, {"pending", 1, 4});
   frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
@@ -175,6 +180,11 @@ void Renderer::State::build_bounds() {
     run(passes::bounds, {nodes_lo.id(), nodes_hi.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }
+  if (traversal == Traversal::wide) {
+    const WideLevels wide(depth, levels.slots());
+    run(passes::wide_nodes, {nodes_lo.id(), nodes_hi.id(), wide_nodes.id()},
+        layout::BoundsPush{depth, levels.slots(), 0, 0}, wide.end());
+  }
 }
 
 void Renderer::State::begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count) {
@@ -213,9 +223,10 @@ void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit
                            &passes::occlude_wide};
   const bool occlusion = &rays == &shadow;
   const PassDecl& pass = *(occlusion ? any : closest)[static_cast<uint32_t>(traversal)];
-  const std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo.id(),   nodes_hi.id(),
-                                         geometry.id(),    links.id(),      rays.hits.id(),
-                                         rays.states.id(), rays.steps.id(), pending.id()};
+  std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo.id(),   nodes_hi.id(),
+                                   geometry.id(),    links.id(),      rays.hits.id(),
+                                   rays.states.id(), rays.steps.id(), pending.id()};
+  if (traversal == Traversal::wide) buffers.insert(buffers.end(), {wide_nodes.id(), tables.leaf_map.id()});
   const uint32_t zero = 0;
   layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget,
                          levels.slots()};

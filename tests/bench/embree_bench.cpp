@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Beside Embree on the same triangles, cores and rays: a closed bumpy sphere of N x N quads. Each round runs
 // Embree, then ours, on the same rays (A B A B ...); the median of the rounds' ratios is what counts.
-// embree_bench [--quads 128,256,512,1024] [--rounds N]
+// embree_bench [--quads 128,256,512,1024] [--rounds N] [--devices cpu,llvmpipe] [--what
+// primary,incoherent,rebuild]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,13 +67,30 @@ double bounds_seconds(Contender& contender, const scene::Pose& pose) {
   return ms / 1e3;
 }
 
-void bench(uint32_t quads, int rounds) {
+struct Choice {
+  std::vector<std::string> sizes{"128", "256", "512", "1024"}, devices{"cpu", "llvmpipe"};
+  std::vector<std::string> what{"primary", "incoherent", "rebuild"};
+  int rounds = 11;
+  bool wants(const std::string& name) const {
+    return std::find(what.begin(), what.end(), name) != what.end();
+  }
+};
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> items;
+  std::stringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) items.push_back(item);
+  return items;
+}
+
+void bench(uint32_t quads, const Choice& choice) {
+  const int rounds = choice.rounds;
   const ReadyScene ready(grid_sphere(quads));
   const scene::Pose pose = ready.pose(0);
   const auto texels = ready.texels(pose);
   const QuadTriangles triangles = quad_triangles(ready.atlas);
   std::vector<Contender> contenders;
-  for (const char* name : {"cpu", "llvmpipe"}) {
+  for (const std::string& name : choice.devices) {
     Contender contender{name, open(name), nullptr};
     render::Settings settings;
     settings.width = settings.height = 8;
@@ -88,6 +106,7 @@ void bench(uint32_t quads, int rounds) {
   for (Contender& contender : contenders) {
     contender.renderer->update(pose);
     for (const auto& [what, rays] : kinds) {
+      if (!choice.wants(what)) continue;
       contender.renderer->load_rays(*rays);
       contender.renderer->trace_loaded();
       embree.intersect(*rays, hits);
@@ -98,6 +117,7 @@ void bench(uint32_t quads, int rounds) {
       }
       result.print(what, quads, contender.name, static_cast<double>(rays->size() / 2), "Mrays/s");
     }
+    if (!choice.wants("rebuild")) continue;
     EmbreeScene rebuilt(texels, triangles.texels, false, EmbreeBuild::dynamic_low_quality);
     bounds_seconds(contender, pose);
     Rounds result;
@@ -113,20 +133,19 @@ void bench(uint32_t quads, int rounds) {
 }  // namespace lodestone::test
 
 int main(int argc, char** argv) try {
-  std::vector<uint32_t> sizes = {128, 256, 512, 1024};
-  int rounds = 11;
+  lodestone::test::Choice choice;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string option = argv[i];
-    if (option == "--rounds") rounds = std::max(1, std::atoi(argv[i + 1]));
-    if (option == "--quads") {
-      sizes.clear();
-      std::stringstream list(argv[i + 1]);
-      for (std::string item; std::getline(list, item, ',');) sizes.push_back(std::atoi(item.c_str()));
-    }
+    if (option == "--rounds") choice.rounds = std::max(1, std::atoi(argv[i + 1]));
+    if (option == "--quads") choice.sizes = lodestone::test::split(argv[i + 1]);
+    if (option == "--devices") choice.devices = lodestone::test::split(argv[i + 1]);
+    if (option == "--what") choice.what = lodestone::test::split(argv[i + 1]);
   }
   fmt::print("{:<12} {:>5} {:<12} {:>9} {:>9} {:<8} {:>7}\n", "what", "quads", "device", "Embree", "ours",
              "unit", "times as fast: median (range)");
-  for (const uint32_t size : sizes) lodestone::test::bench(size, rounds);
+  for (const std::string& size : choice.sizes) {
+    lodestone::test::bench(static_cast<uint32_t>(std::atoi(size.c_str())), choice);
+  }
 } catch (const lodestone::Error& error) {
   fmt::print(stderr, "{}\n", error.what());
   return static_cast<int>(error.code());
