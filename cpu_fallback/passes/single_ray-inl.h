@@ -9,7 +9,10 @@
 #define LODESTONE_SINGLE_RAY_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
+
+#include <limits>
 
 #include "lodestone/cpu_fallback/passes/trace_block.h"
 #include "lodestone/cpu_fallback/passes/wide_nodes.h"
@@ -45,7 +48,8 @@ struct SingleRay {
   layout::Shear shear;
   SlabLanes axes[3];
 
-  HWY_ATTR SingleRay(const layout::Ray& r, float extent, const WideGrid& grid)
+  SingleRay() = default;
+  HWY_ATTR HWY_FLATTEN SingleRay(const layout::Ray& r, float extent, const WideGrid& grid)
       : ray(r), slabs(layout::make_slabs(r, extent)), shear(layout::make_shear(r)) {
     for (int i = 0; i < 3; ++i) {
       axes[i] =
@@ -53,6 +57,14 @@ struct SingleRay {
     }
   }
 };
+
+// A mask of at most 16 lanes as bits.
+template <class D>
+HWY_ATTR inline uint32_t mask_bits(D d, hn::Mask<D> mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return uint32_t(bytes[0]) | uint32_t(bytes[1]) << 8;
+}
 
 HWY_ATTR inline hn::Vec<Boxes> plane_distances(const uint16_t* HWY_RESTRICT planes, float scale,
                                                float offset) {
@@ -63,13 +75,27 @@ HWY_ATTR inline hn::Vec<Boxes> plane_distances(const uint16_t* HWY_RESTRICT plan
   return hn::MulAdd(steps, hn::Set(d, scale), hn::Set(d, offset));
 }
 
-// The bits of those children of a record that the ray enters before `tmax`, and how far away they are at
-// least.
-HWY_ATTR inline uint32_t test_boxes(const WideNode& node, const SingleRay& ray, float tmax,
-                                    float* HWY_RESTRICT enter) {
+// The children of a record that a ray enters.
+struct Entered {
+  HWY_ALIGN float enter[wide_fan];  // how far away each is at least
+  uint32_t hits;                    // their bits
+  float nearest;                    // the least distance of those; infinite where there are none
+
+  HWY_ATTR uint32_t nearest_child() const {
+    const Boxes d;
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
+      at |= mask_bits(d, hn::Eq(hn::Load(d, enter + i), hn::Set(d, nearest))) << i;
+    }
+    return static_cast<uint32_t>(std::countr_zero(at & hits));
+  }
+};
+
+HWY_ATTR inline void test_boxes(const WideNode& node, const SingleRay& ray, float tmax, Entered& entered) {
   const Boxes d;
-  uint32_t hits = 0;
   const auto& [x, y, z] = ray.axes;
+  auto nearest = hn::Set(d, std::numeric_limits<float>::infinity());
+  entered.hits = 0;
   for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
     const auto enter_x = plane_distances(node.planes[0][x.near_plane] + i, x.scale, x.near_offset);
     const auto enter_y = plane_distances(node.planes[1][y.near_plane] + i, y.scale, y.near_offset);
@@ -79,18 +105,18 @@ HWY_ATTR inline uint32_t test_boxes(const WideNode& node, const SingleRay& ray, 
     const auto exit_z = plane_distances(node.planes[2][z.near_plane ^ 1] + i, z.scale, z.far_offset);
     const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, hn::Set(d, ray.ray.tmin)));
     const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, hn::Set(d, tmax)));
-    hn::StoreU(from, d, enter + i);
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Le(from, to), bits);
-    hits |= (uint32_t(bits[0]) | uint32_t(bits[1]) << 8) << i;
+    const auto inside = hn::Le(from, to);
+    nearest = hn::Min(nearest, hn::IfThenElse(inside, from, nearest));
+    hn::Store(from, d, entered.enter + i);
+    entered.hits |= mask_bits(d, inside) << i;
   }
-  return hits;
+  entered.nearest = hn::GetLane(hn::MinOfLanes(d, nearest));
 }
 
 // The exact test of one quad whose edge functions have let the ray through.
 template <class Block>
-HWY_ATTR HWY_NOINLINE void accept_quad(const Block& block, const SingleRay& ray, uint32_t texel,
-                                       uint32_t stride, layout::Hit& best) {
+HWY_ATTR HWY_FLATTEN HWY_NOINLINE void accept_quad(const Block& block, const SingleRay& ray, uint32_t texel,
+                                                   uint32_t stride, layout::Hit& best) {
   const glm::vec3 a = block.texel(texel), b = block.texel(texel + 1);
   const glm::vec3 c = block.texel(texel + stride), e = block.texel(texel + stride + 1);
   const layout::Bound bound = layout::quad_bound(a, b, c, e);
@@ -130,11 +156,16 @@ constexpr Indices in_blocks(int32_t a, int32_t b, int32_t c, int32_t e) {
   return indices;
 }
 
+// Four values a quad. edges: of a b, b c, c a, d c; bd: of b d, four times; t: along the ray, of the corners.
+struct QuadLanes {
+  alignas(64) float edges[corner_lanes], bd[corner_lanes], t[corner_lanes];
+};
+
 // layout::intersect_quad's edge functions for up to `quads_at_once` quads; returns a bit a quad: the ray
 // passes one of its triangles.
 template <class Block>
 HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, const uint32_t* texels,
-                                    const uint32_t* strides) {
+                                    const uint32_t* strides, QuadLanes& lanes) {
   const Corners d;
   const hn::Repartition<uint64_t, Corners> pairs;
   const float* from[4][quads_at_once];
@@ -172,14 +203,12 @@ HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, co
       hn::Sub(hn::Mul(px, hn::TableLookupLanes(py, to)), hn::Mul(py, hn::TableLookupLanes(px, to)));
   const auto bd = hn::Sub(hn::Mul(hn::TableLookupLanes(px, at_b), hn::TableLookupLanes(py, at_d)),
                           hn::Mul(hn::TableLookupLanes(py, at_b), hn::TableLookupLanes(px, at_d)));
+  hn::Store(edges, d, lanes.edges);
+  hn::Store(bd, d, lanes.bd);
+  hn::Store(hn::Mul(hn::Set(d, ray.shear.z), depth), d, lanes.t);
   const auto zero = hn::Zero(d);
-  const auto bits = [&](hn::Mask<Corners> mask) HWY_ATTR {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    return uint32_t(bytes[0]) | uint32_t(bytes[1]) << 8;
-  };
-  const uint32_t plus = bits(hn::Ge(edges, zero)), minus = bits(hn::Le(edges, zero));
-  const uint32_t bd_plus = bits(hn::Ge(bd, zero)), bd_minus = bits(hn::Le(bd, zero));
+  const uint32_t plus = mask_bits(d, hn::Ge(edges, zero)), minus = mask_bits(d, hn::Le(edges, zero));
+  const uint32_t bd_plus = mask_bits(d, hn::Ge(bd, zero)), bd_minus = mask_bits(d, hn::Le(bd, zero));
   uint32_t passed = 0;
   for (uint32_t i = 0; i < quads_at_once; ++i) {
     const uint32_t p = plus >> (4 * i), m = minus >> (4 * i);
@@ -190,6 +219,17 @@ HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, co
     if (first || second) passed |= 1u << i;
   }
   return passed;
+}
+
+// Whether a ray that passes a triangle of the quad meets it beyond tmin and no farther than `best`. Most do
+// not: a ray passes the quad that it starts on.
+HWY_ATTR inline bool may_hit(const QuadLanes& lanes, uint32_t quad, float tmin, float tmax) {
+  const float* w = lanes.edges + 4 * quad;
+  const float* t = lanes.t + 4 * quad;
+  const float bd = lanes.bd[4 * quad];
+  const float t_first = (w[1] * t[0] + w[2] * t[1] + w[0] * t[2]) / (w[1] + w[2] + w[0]);
+  const float t_second = (-w[1] * t[3] + bd * t[2] + w[3] * t[1]) / (-w[1] + bd + w[3]);
+  return (t_first > tmin && t_first <= tmax) || (t_second > tmin && t_second <= tmax);
 }
 #endif
 
@@ -217,63 +257,136 @@ HWY_ATTR inline void test_quads(Block& block, const SingleRay& ray, uint32_t fir
       texels[i] = texels[0];
       strides[i] = strides[0];
     }
-    uint32_t passed = pass_edges(block, ray, texels, strides) & ((1u << count) - 1);
+    QuadLanes lanes;
+    uint32_t passed = pass_edges(block, ray, texels, strides, lanes) & ((1u << count) - 1);
     for (; passed != 0; passed &= passed - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(passed));
-      accept_quad(block, ray, texels[i], strides[i], best);
+      if (may_hit(lanes, i, ray.ray.tmin, best.t)) accept_quad(block, ray, texels[i], strides[i], best);
     }
 #endif
   }
 }
 
-struct StackEntry {
-  float enter;
-  uint32_t record;
-};
+// What is still to be visited.
+struct Stack {
+  // A vector may be stored behind the last entry.
+  float enter[wide_fan * (layout::max_depth / 2 + 2)];
+  uint32_t record[wide_fan * (layout::max_depth / 2 + 2)];
+  uint32_t size = 0;
 
-// Puts the children of `record` that were entered on the stack, the nearest last. `end`: records there are.
-HWY_ATTR inline uint32_t push_sorted(StackEntry* stack, uint32_t size, uint32_t hits, const float* enter,
-                                     uint32_t record, uint32_t end) {
-  const uint32_t bottom = size;
-  for (; hits != 0; hits &= hits - 1) {
-    const auto child = static_cast<uint32_t>(std::countr_zero(hits));
-    const StackEntry entry{enter[child], wide_fan * record + 1 + child};
-    if (entry.record >= end) continue;  // an empty child, entered by rounding
-    uint32_t place = size++;
-    for (; place > bottom && stack[place - 1].enter < entry.enter; --place) stack[place] = stack[place - 1];
-    stack[place] = entry;
-  }
-  return size;
-}
-
-template <class Block>
-HWY_ATTR inline void trace_single(Block& block, uint32_t index) {
-  if (!block.wanted(index)) return;
-  layout::Ray given = block.ray(index);
-  layout::Hit best{given.tmax, 0, 0, layout::no_index};
-  uint32_t visits = 0;
-  if (!(given.tmax < 0.0f)) {
-    const SingleRay ray(given, block.extent(), block.grid());
-    StackEntry stack[wide_fan * (layout::max_depth / 2 + 1)];
-    uint32_t size = 0;
-    HWY_ALIGN float enter[wide_fan];
-    uint32_t record = 0;
-    for (;;) {
-      uint32_t hits = test_boxes(block.wide_node(record), ray, best.t, enter);
-      block.count_record();
-      ++visits;
-      if (record >= block.first_leaf_record()) {
-        test_quads(block, ray, (record - block.first_leaf_record()) * wide_fan, hits, enter, best);
-        if (block.any_hit() && best.primitive != layout::no_index) break;
-      } else {
-        size = push_sorted(stack, size, hits, enter, record, block.end_record());
-      }
-      while (size != 0 && stack[size - 1].enter > best.t) --size;
-      if (size == 0) break;
-      record = stack[--size].record;
+  // The children `rest` of a record, in no order.
+  HWY_ATTR void push(const Entered& entered, uint32_t rest, uint32_t first_child) {
+    const Boxes d;
+    const hn::RebindToUnsigned<Boxes> du;
+    for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
+      const uint64_t bits = rest >> i;
+      const auto chosen = hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
+      // In a register, then a plain store: compressing stores take a hundred cycles on some processors.
+      hn::StoreU(hn::Compress(hn::Load(d, entered.enter + i), chosen), d, enter + size);
+      hn::StoreU(hn::Compress(hn::Iota(du, first_child + i), hn::RebindMask(du, chosen)), du, record + size);
+      size += static_cast<uint32_t>(hn::CountTrue(d, chosen));
     }
   }
-  block.finish(index, given, best, visits);
+
+  // The record on top that lies before `tmax`; false: there is none left.
+  bool pop(float tmax, uint32_t& next) {
+    while (size != 0) {
+      --size;
+      if (enter[size] > tmax) continue;
+      next = record[size];
+      return true;
+    }
+    return false;
+  }
+};
+
+// One ray on its way.
+struct Flight {
+  SingleRay ray;
+  layout::Hit best;
+  uint32_t index, record, visits;
+  Stack stack;
+};
+
+// Starts ray `index`; false: it needs no step.
+template <class Block>
+HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
+  if (!block.wanted(index)) return false;
+  const layout::Ray ray = block.ray(index);
+  flight.best = {ray.tmax, 0, 0, layout::no_index};
+  if (ray.tmax < 0.0f) {
+    block.finish(index, ray, flight.best, 0);
+    return false;
+  }
+  flight.ray = SingleRay(ray, block.extent(), block.grid());
+  flight.index = index;
+  flight.record = flight.visits = 0;
+  flight.stack.size = 0;
+  return true;
+}
+
+// Visits a record and finds the next; false: there is none.
+template <class Block>
+HWY_ATTR inline bool step(Block& block, Flight& flight) {
+  const uint32_t first_leaf = block.first_leaf_record(), end = block.end_record();
+  const uint32_t record = flight.record;
+  Entered entered;
+  test_boxes(block.wide_node(record), flight.ray, flight.best.t, entered);
+  block.count_record();
+  ++flight.visits;
+  if (record >= first_leaf) {
+    if (entered.hits != 0) {
+      test_quads(block, flight.ray, (record - first_leaf) * wide_fan, entered.hits, entered.enter,
+                 flight.best);
+      if (block.any_hit() && flight.best.primitive != layout::no_index) return false;
+    }
+  } else if (entered.hits != 0) {
+    // On to the nearest; the others wait.
+    const uint32_t child = entered.nearest_child();
+    const uint32_t first_child = wide_fan * record + 1;
+    if (const uint32_t rest = entered.hits & ~(1u << child); rest != 0)
+      flight.stack.push(entered, rest, first_child);
+    flight.record = first_child + child;
+    if (flight.record < end) return true;  // or else an empty child, entered by rounding
+  }
+  do {
+    if (!flight.stack.pop(flight.best.t, flight.record)) return false;
+  } while (flight.record >= end);
+  return true;
+}
+
+// Each ray waits for one record after the other: so several are on their way, a step of one while the caches
+// fetch what the others need.
+constexpr uint32_t flights_at_once = 4;
+
+template <class Block>
+HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32_t count) {
+  Flight flights[flights_at_once];
+  Flight* active[flights_at_once];
+  uint32_t next = 0, size = 0;
+  const auto fill = [&](Flight& flight) HWY_ATTR {
+    while (next < count) {
+      if (start(block, indices[next++], flight)) return true;
+    }
+    return false;
+  };
+  while (size < flights_at_once && fill(flights[size])) {
+    active[size] = &flights[size];
+    ++size;
+  }
+  while (size != 0) {
+    for (uint32_t i = 0; i < size; ++i) {
+      Flight& flight = *active[i];
+      if (step(block, flight)) {
+        hwy::Prefetch(&block.wide_node(flight.record).planes[0]);
+        hwy::Prefetch(&block.wide_node(flight.record).planes[1]);
+        hwy::Prefetch(&block.wide_node(flight.record).planes[2]);
+        continue;
+      }
+      block.finish(flight.index, flight.ray.ray, flight.best, flight.visits);
+      if (!fill(flight)) active[i] = active[--size];
+    }
+  }
 }
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE

@@ -12,6 +12,7 @@
 namespace lodestone::cpu_fallback {
 
 inline constexpr uint32_t packet_rays = 16;
+inline constexpr uint32_t trace_grain = 1024;  // rays of a task, at most
 
 template <class Probe>
 class TraceBlock : public TraceKernel<Probe> {

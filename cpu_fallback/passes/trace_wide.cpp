@@ -21,14 +21,17 @@ namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 // Rays [begin, end) of the dispatch; `begin` is a multiple of 16.
 template <class Block>
 HWY_ATTR void trace_rays(Block& block, uint32_t begin, uint32_t end) {
+  uint32_t singles[trace_grain];
+  uint32_t size = 0;
   for (uint32_t first = begin; first < end; first += packet_rays) {
     const uint32_t count = std::min(packet_rays, end - first);
     if (block.coherent(first, count)) {
       trace_packet(block, first, count);
     } else {
-      for (uint32_t i = first; i < first + count; ++i) trace_single(block, i);
+      for (uint32_t i = first; i < first + count; ++i) singles[size++] = i;
     }
   }
+  trace_singles(block, singles, size);
 }
 
 void trace_block(TraceBlock<EmptyProbe>& block, uint32_t begin, uint32_t end) {
@@ -59,7 +62,7 @@ std::string simd_target() {
 void trace_wide(const CpuDispatch& dispatch) {
   if (!dispatch.counting) {
     const auto trace = HWY_DYNAMIC_DISPATCH(trace_block);
-    parallel_for(dispatch.invocations, 1024, [&](uint64_t begin, uint64_t end) {
+    parallel_for(dispatch.invocations, trace_grain, [&](uint64_t begin, uint64_t end) {
       TraceBlock<EmptyProbe> block(dispatch);
       trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
     });
@@ -67,7 +70,7 @@ void trace_wide(const CpuDispatch& dispatch) {
   }
   const auto trace = HWY_DYNAMIC_DISPATCH(trace_counted);
   std::mutex mutex;
-  parallel_for(dispatch.invocations, 1024, [&](uint64_t begin, uint64_t end) {
+  parallel_for(dispatch.invocations, trace_grain, [&](uint64_t begin, uint64_t end) {
     TraceBlock<CountingProbe> block(dispatch);
     trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
     const std::lock_guard lock(mutex);

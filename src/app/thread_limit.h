@@ -2,10 +2,7 @@
 // --threads, for everything that runs on the CPU.
 #pragma once
 
-#include <oneapi/tbb/global_control.h>
-
 #include <cstdint>
-#include <optional>
 
 #include "lodestone/base/parallel.h"
 
@@ -14,16 +11,10 @@ namespace lodestone::app {
 // While it lives, at most `threads` threads work; 0: as many as there are cores.
 class ThreadLimit {
  public:
-  explicit ThreadLimit(uint32_t threads) {
-    set_thread_count(threads);
-    if (threads > 0) limit_.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  }
+  explicit ThreadLimit(uint32_t threads) { set_thread_count(threads); }
   ~ThreadLimit() { set_thread_count(0); }
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
-
- private:
-  std::optional<tbb::global_control> limit_;
 };
 
 }  // namespace lodestone::app

@@ -14,7 +14,7 @@ uint32_t thread_count();
 
 // Calls body(begin, end) for blocks of about `grain` that cover 0 .. count, in any order, on any thread.
 // Blocks do not depend on the number of threads: they start at multiples of `grain`. The first exception is
-// rethrown.
+// rethrown. A loop may run inside a loop; together they have no more threads than one.
 void parallel_for(uint64_t count, uint64_t grain, const std::function<void(uint64_t, uint64_t)>& body);
 
 }  // namespace lodestone

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/gltf_parse.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -14,6 +12,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
 #include "lodestone/base/log.h"
+#include "lodestone/base/parallel.h"
 #include "lodestone/scene/asset_folder.h"
 #include "lodestone/scene/decode_image.h"
 
@@ -227,7 +226,7 @@ std::vector<Image> decode_all(const std::string& file, const std::vector<Encoded
   std::vector<Image> images(encoded.size());
   std::vector<std::exception_ptr> errors(encoded.size());
   std::atomic<uint64_t> texels{0};
-  tbb::parallel_for(size_t(0), encoded.size(), [&](size_t i) {
+  parallel_for(encoded.size(), 1, [&](uint64_t i, uint64_t) {
     try {
       if (texels.load() > max_texels_in_all) return;
       images[i] = decode_image(encoded[i].bytes, encoded[i].subject);

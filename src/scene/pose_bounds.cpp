@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-// World bounds of what a pose draws, from vertices morphed and skinned on the CPU. Minima and maxima do not
-// depend on the order in which they are taken, so that the result is the same for any number of threads.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
+// World bounds of what a pose draws, from vertices morphed and skinned on the CPU. Blocks are joined in their
+// order, so that the result is the same for any number of threads.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/parallel.h"
 #include "lodestone/scene/pose.h"
 
 namespace lodestone::scene {
@@ -19,6 +17,11 @@ Bounds joined(Bounds a, const Bounds& b) {
   a.include(b.lo);
   a.include(b.hi);
   return a;
+}
+
+Bounds joined(const std::vector<Bounds>& all) {
+  return std::accumulate(all.begin(), all.end(), Bounds(),
+                         [](const Bounds& a, const Bounds& b) { return joined(a, b); });
 }
 
 std::vector<glm::vec3> morphed(const Mesh& mesh, const std::vector<float>& weights) {
@@ -49,18 +52,19 @@ Bounds node_bounds(const Scene& scene, const Pose& pose, uint32_t node) {
   const std::vector<glm::vec3> positions = morphed(mesh, pose.weights[node]);
   const std::vector<glm::mat4> matrices = palette(scene, pose, node);
   // Over the corners of triangles: a vertex that no triangle has is not drawn.
-  return tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, mesh.triangles.size(), 4096), Bounds(),
-      [&](const tbb::blocked_range<size_t>& range, Bounds bounds) {
-        for (size_t t = range.begin(); t < range.end(); ++t) {
-          for (int corner = 0; corner < 3; ++corner) {
-            const uint32_t vertex = mesh.triangles[t][corner];
-            bounds.include(to_world(mesh, matrices, vertex, positions[vertex]));
-          }
-        }
-        return bounds;
-      },
-      joined);
+  constexpr uint64_t grain = 4096;
+  std::vector<Bounds> of_block((mesh.triangles.size() + grain - 1) / grain);
+  parallel_for(mesh.triangles.size(), grain, [&](uint64_t begin, uint64_t end) {
+    Bounds bounds;
+    for (uint64_t t = begin; t < end; ++t) {
+      for (int corner = 0; corner < 3; ++corner) {
+        const uint32_t vertex = mesh.triangles[t][corner];
+        bounds.include(to_world(mesh, matrices, vertex, positions[vertex]));
+      }
+    }
+    of_block[begin / grain] = bounds;
+  });
+  return joined(of_block);
 }
 
 }  // namespace
@@ -73,11 +77,10 @@ void Bounds::include(const glm::vec3& point) {
 
 Bounds pose_bounds(const Scene& scene, const Pose& pose) {
   std::vector<Bounds> of_node(scene.nodes.size());
-  tbb::parallel_for(uint32_t(0), uint32_t(scene.nodes.size()), [&](uint32_t n) {
-    if (scene.nodes[n].mesh != none) of_node[n] = node_bounds(scene, pose, n);
+  parallel_for(scene.nodes.size(), 1, [&](uint64_t n, uint64_t) {
+    if (scene.nodes[n].mesh != none) of_node[n] = node_bounds(scene, pose, uint32_t(n));
   });
-  Bounds all;
-  for (const Bounds& bounds : of_node) all = joined(all, bounds);
+  const Bounds all = joined(of_node);
   const glm::vec3 extent = all.hi - all.lo;
   if (!std::isfinite(extent.x) || !std::isfinite(extent.y) || !std::isfinite(extent.z)) {
     fail_input(scene.name, "its vertices leave the range of floats; scale the scene down");

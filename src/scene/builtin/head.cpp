@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cartoon bust: its parts, materials, lights and camera.
-#include <tbb/parallel_for.h>
-
+#include "lodestone/base/parallel.h"
 #include "lodestone/scene/builtin/head_clip.h"
 #include "lodestone/scene/builtin/head_parts.h"
 #include "lodestone/scene/builtin/scenes.h"
@@ -15,7 +14,7 @@ void sculpt(Mesh& mesh, const Posing& posed) {
   mesh.normals = snapped_normals(mesh, mesh.positions);
   const std::span<const Shape> shapes = head_shapes();
   std::vector<MorphTarget> targets(shapes.size());
-  tbb::parallel_for(size_t(0), shapes.size(), [&](size_t k) {
+  parallel_for(shapes.size(), 1, [&](uint64_t k, uint64_t) {
     targets[k] = morph_target(mesh, shapes[k].name, posed(shapes[k].expression));
   });
   for (MorphTarget& target : targets) add_target(mesh, std::move(target));

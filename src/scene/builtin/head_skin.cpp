@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/builtin/head_skin.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <span>
 
+#include "lodestone/base/parallel.h"
 #include "lodestone/scene/builtin/head_parts.h"
 
 namespace lodestone::scene::builtin {
@@ -71,9 +70,11 @@ HeadSkin::HeadSkin() : lattice_(cells) {
   lay_lips(mouth_);
   points_.resize(vertex_count_);
   normals_.resize(vertex_count_);
-  tbb::parallel_for(0u, vertex_count_, [&](uint32_t v) {
-    points_[v] = head_point(aims_[v]);
-    normals_[v] = head_normal(points_[v]);
+  parallel_for(vertex_count_, 256, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t v = begin; v < end; ++v) {
+      points_[v] = head_point(aims_[v]);
+      normals_[v] = head_normal(points_[v]);
+    }
   });
 }
 

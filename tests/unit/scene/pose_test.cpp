@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/parallel.h"
 
 namespace lodestone::scene {
 namespace {
@@ -168,6 +169,27 @@ TEST(PoseBounds, OfASceneWithoutMeshesAreEmpty) {
   Scene scene;
   scene.nodes.resize(1);
   EXPECT_TRUE(pose_bounds(scene, evaluate(scene, none, 0)).empty);
+}
+
+// A strip long enough to be split, with its ends in the first and in the last block, and its top in the
+// middle.
+TEST(PoseBounds, AreTheSameForAnyNumberOfThreads) {
+  constexpr uint32_t triangles = 20000;
+  Scene scene = one_node();
+  Mesh& mesh = scene.meshes[0];
+  mesh = {};
+  for (uint32_t v = 0; v < triangles + 2; ++v)
+    mesh.positions.emplace_back(float(v), v == triangles / 2 ? 7 : float(v % 3), 0);
+  for (uint32_t t = 0; t < triangles; ++t) mesh.triangles.emplace_back(t, t + 1, t + 2);
+  mesh.normals.assign(mesh.positions.size(), {0, 0, 1});
+  mesh.parts = {{0, triangles, none}};
+  for (const uint32_t threads : {1u, 2u, 3u, 0u}) {
+    set_thread_count(threads);
+    const Bounds b = pose_bounds(scene, evaluate(scene, none, 0));
+    EXPECT_EQ(b.lo, glm::vec3(0)) << threads;
+    EXPECT_EQ(b.hi, glm::vec3(float(triangles + 1), 7, 0)) << threads;
+  }
+  set_thread_count(0);
 }
 
 TEST(AnimationBounds, CoverTheWholeClip) {
