@@ -66,6 +66,11 @@ HWY_ATTR inline uint32_t mask_bits(D d, hn::Mask<D> mask) {
   return uint32_t(bytes[0]) | uint32_t(bytes[1]) << 8;
 }
 
+template <class D>
+HWY_ATTR inline hn::Mask<D> bit_mask(D d, uint64_t bits) {
+  return hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
+}
+
 HWY_ATTR inline hn::Vec<Boxes> plane_distances(const uint16_t* HWY_RESTRICT planes, float scale,
                                                float offset) {
   const Boxes d;
@@ -79,13 +84,18 @@ HWY_ATTR inline hn::Vec<Boxes> plane_distances(const uint16_t* HWY_RESTRICT plan
 struct Entered {
   HWY_ALIGN float enter[wide_fan];  // how far away each is at least
   uint32_t hits;                    // their bits
-  float nearest;                    // the least distance of those; infinite where there are none
 
-  HWY_ATTR uint32_t nearest_child() const {
+  HWY_ATTR uint32_t nearest() const {
+    if ((hits & (hits - 1)) == 0) return static_cast<uint32_t>(std::countr_zero(hits));
     const Boxes d;
+    auto least = hn::Set(d, std::numeric_limits<float>::infinity());
+    for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
+      least = hn::Min(least, hn::IfThenElse(bit_mask(d, hits >> i), hn::Load(d, enter + i), least));
+    }
+    least = hn::MinOfLanes(d, least);
     uint32_t at = 0;
     for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
-      at |= mask_bits(d, hn::Eq(hn::Load(d, enter + i), hn::Set(d, nearest))) << i;
+      at |= mask_bits(d, hn::Eq(hn::Load(d, enter + i), least)) << i;
     }
     return static_cast<uint32_t>(std::countr_zero(at & hits));
   }
@@ -94,7 +104,6 @@ struct Entered {
 HWY_ATTR inline void test_boxes(const WideNode& node, const SingleRay& ray, float tmax, Entered& entered) {
   const Boxes d;
   const auto& [x, y, z] = ray.axes;
-  auto nearest = hn::Set(d, std::numeric_limits<float>::infinity());
   entered.hits = 0;
   for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
     const auto enter_x = plane_distances(node.planes[0][x.near_plane] + i, x.scale, x.near_offset);
@@ -106,11 +115,9 @@ HWY_ATTR inline void test_boxes(const WideNode& node, const SingleRay& ray, floa
     const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, hn::Set(d, ray.ray.tmin)));
     const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, hn::Set(d, tmax)));
     const auto inside = hn::Le(from, to);
-    nearest = hn::Min(nearest, hn::IfThenElse(inside, from, nearest));
     hn::Store(from, d, entered.enter + i);
     entered.hits |= mask_bits(d, inside) << i;
   }
-  entered.nearest = hn::GetLane(hn::MinOfLanes(d, nearest));
 }
 
 // The exact test of one quad whose edge functions have let the ray through.
@@ -279,8 +286,7 @@ struct Stack {
     const Boxes d;
     const hn::RebindToUnsigned<Boxes> du;
     for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
-      const uint64_t bits = rest >> i;
-      const auto chosen = hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits));
+      const auto chosen = bit_mask(d, rest >> i);
       // In a register, then a plain store: compressing stores take a hundred cycles on some processors.
       hn::StoreU(hn::Compress(hn::Load(d, entered.enter + i), chosen), d, enter + size);
       hn::StoreU(hn::Compress(hn::Iota(du, first_child + i), hn::RebindMask(du, chosen)), du, record + size);
@@ -342,7 +348,7 @@ HWY_ATTR inline bool step(Block& block, Flight& flight) {
     }
   } else if (entered.hits != 0) {
     // On to the nearest; the others wait.
-    const uint32_t child = entered.nearest_child();
+    const uint32_t child = entered.nearest();
     const uint32_t first_child = wide_fan * record + 1;
     if (const uint32_t rest = entered.hits & ~(1u << child); rest != 0)
       flight.stack.push(entered, rest, first_child);
@@ -357,7 +363,7 @@ HWY_ATTR inline bool step(Block& block, Flight& flight) {
 
 // Each ray waits for one record after the other: so several are on their way, a step of one while the caches
 // fetch what the others need.
-constexpr uint32_t flights_at_once = 4;
+constexpr uint32_t flights_at_once = 6;
 
 template <class Block>
 HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32_t count) {
