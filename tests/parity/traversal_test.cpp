@@ -4,6 +4,7 @@
 #include <hwy/targets.h>
 
 #include <bit>
+#include <cmath>
 
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/grid_sphere.h"
@@ -119,6 +120,30 @@ TEST(Traversals, GoOnWhereADeviceCutsLoops) {
         ASSERT_NE(hit.w, layout::no_index) << device;
         EXPECT_FLOAT_EQ(std::bit_cast<float>(hit.x), 3.0f);
       }
+    }
+  }
+}
+
+// Bounds in 16 bits, flat ones, seen from so far that rounding enters empty children too; trees of odd and
+// even depth.
+TEST(Traversals, AgreeOnFlatSurfacesFromFarAway) {
+  for (const uint32_t quads : {3u, 7u, 20u}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      scene::Scene flat = grid_sphere(quads);
+      for (glm::vec3& position : flat.meshes[0].positions) position[axis] = 0.25f;
+      const ReadyScene ready(std::move(flat));
+      Rays rays;
+      for (const float distance : {2.0f, 3e3f, 4e6f}) {
+        for (int i = 0; i < 500; ++i) {
+          const auto turn = static_cast<float>(i);
+          glm::vec3 eye(std::sin(turn) * distance, std::cos(2 * turn) * distance,
+                        std::sin(3 * turn) * distance);
+          const glm::vec3 target(0.9f * std::sin(5 * turn), 0.9f * std::cos(7 * turn),
+                                 0.8f * std::sin(11 * turn));
+          add_ray(rays, eye, glm::normalize(target - eye));
+        }
+      }
+      expect_all_equal(ready, rays);
     }
   }
 }
