@@ -128,6 +128,15 @@ class Kernel {
     probe.write(1);
     buffer.store1(i, value);
   }
+  // The same for vector loads and stores.
+  const float* loaded(const Quads& buffer, uint64_t i) {
+    probe.read(4);
+    return reinterpret_cast<const float*>(buffer.words + 4 * i);
+  }
+  uint32_t* stored(const Quads& buffer, uint64_t i) {
+    probe.write(4);
+    return buffer.words + 4 * i;
+  }
   // A counter that several invocations add to.
   void add(const Words& buffer, uint64_t i, uint32_t value) {
     std::atomic_ref<uint32_t>(buffer.words[i]).fetch_add(value, std::memory_order_relaxed);
@@ -159,5 +168,36 @@ void run_pass(const CpuDispatch& dispatch, uint64_t grain) {
     run_with<Pass, EmptyProbe>(dispatch, grain);
   }
 }
+
+// Invocations [begin, end) of a pass; `counters`: null, or what they are added to.
+using BlockFunction = void (*)(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,
+                               render::Counters* counters);
+
+// The same for a pass that is compiled once a SIMD target: `block` is the one that run-time dispatch chose.
+inline void run_blocks(const CpuDispatch& dispatch, uint64_t grain, BlockFunction block) {
+  std::mutex mutex;
+  parallel_for(dispatch.invocations, grain, [&](uint64_t begin, uint64_t end) {
+    render::Counters counters;
+    block(dispatch, static_cast<uint32_t>(begin), static_cast<uint32_t>(end),
+          dispatch.counting ? &counters : nullptr);
+    if (!dispatch.counting) return;
+    const std::lock_guard lock(mutex);
+    add_counters(*dispatch.counters, counters);
+  });
+}
+
+// Defines NAME_block, a BlockFunction, for the pass template PASS inside the namespace of a SIMD target.
+#define LODESTONE_BLOCK_FUNCTION(NAME, PASS)                                            \
+  HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end, \
+                             render::Counters* counters) {                              \
+    if (counters == nullptr) {                                                          \
+      PASS<EmptyProbe> pass(dispatch);                                                  \
+      for (uint32_t i = begin; i < end; ++i) pass(i);                                   \
+    } else {                                                                            \
+      PASS<CountingProbe> pass(dispatch);                                               \
+      for (uint32_t i = begin; i < end; ++i) pass(i);                                   \
+      *counters = pass.probe.counts;                                                    \
+    }                                                                                   \
+  }
 
 }  // namespace lodestone::cpu_fallback

@@ -3,39 +3,38 @@
 #include "lodestone/layout/arithmetic.h"
 #include "lodestone/layout/frame.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/blend.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
 
-using glm::uvec4;
-using glm::vec3;
-using glm::vec4;
-using layout::uintBitsToFloat;
+#include <hwy/highway.h>
 
-struct Rows {
-  vec4 r0, r1, r2;
-};
+#include "lodestone/cpu_fallback/passes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
 class Blend : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
 
-  void operator()(uint32_t vertex) {
-    const uvec4 range = this->load(vertex_ranges_, vertex);
-    const uvec4 position_bits = this->load(base_positions_, vertex);
-    const uvec4 normal_bits = this->load(base_normals_, vertex);
-    const uvec4 tangent_bits = push_.tangents != 0 ? this->load(base_tangents_, vertex) : uvec4(0);
-    vec3 position = as_vec3(position_bits);
-    vec3 normal = as_vec3(normal_bits);
-    vec3 tangent = as_vec3(tangent_bits);
+  HWY_ATTR void operator()(uint32_t vertex) {
+    const glm::uvec4 range = this->load(vertex_ranges_, vertex);
+    const float* base_normal = this->loaded(base_normals_, vertex);
+    Lanes4 position = load_lanes(this->loaded(base_positions_, vertex));
+    Lanes4 normal = load_lanes(base_normal);
+    const float* base_tangent = push_.tangents != 0 ? this->loaded(base_tangents_, vertex) : nullptr;
+    Lanes4 tangent = base_tangent != nullptr ? load_lanes(base_tangent) : all_lanes(0);
     for (uint32_t i = range.x; i < range.y; ++i) {
-      const uvec4 entry = this->load(morph_positions_, i);
-      const vec3 normal_delta = as_vec3(this->load(morph_normals_, i));
-      const float weight = uintBitsToFloat(this->load(weights_, entry.x));
-      position = position +
-                 weight * vec3(uintBitsToFloat(entry.y), uintBitsToFloat(entry.z), uintBitsToFloat(entry.w));
-      normal = normal + weight * normal_delta;
-      if (push_.tangents != 0) tangent = tangent + weight * as_vec3(this->load(morph_tangents_, i));
+      const glm::uvec4 entry = this->load(morph_positions_, i);  // { weight, delta x, y, z }
+      const Lanes4 weight = all_lanes(layout::uintBitsToFloat(this->load(weights_, entry.x)));
+      const Lanes4 delta = without_first(load_lanes(address(morph_positions_, i)));
+      position = position + weight * delta;
+      normal = normal + weight * load_lanes(this->loaded(morph_normals_, i));
+      if (base_tangent != nullptr) {
+        tangent = tangent + weight * load_lanes(this->loaded(morph_tangents_, i));
+      }
     }
 
     Rows rows = weighted_matrix(range.z);
@@ -45,28 +44,41 @@ class Blend : public Kernel<Probe> {
       rows.r1 = rows.r1 + more.r1;
       rows.r2 = rows.r2 + more.r2;
     }
-    const vec3 r0(rows.r0), r1(rows.r1), r2(rows.r2);
-    const vec3 moved(layout::dot3(r0, position) + rows.r0.w, layout::dot3(r1, position) + rows.r1.w,
-                     layout::dot3(r2, position) + rows.r2.w);
-    this->store(positions_, vertex, as_bits(layout::flush_tiny3(moved), 0));
+    const Columns m(rows.r0, rows.r1, rows.r2);
+    store_lanes(flush_tiny(m.dot(position) + m.w), 0, this->stored(positions_, vertex));
 
-    const vec3 c0 = layout::cross3(r1, r2), c1 = layout::cross3(r2, r0), c2 = layout::cross3(r0, r1);
-    vec3 turned(layout::dot3(c0, normal), layout::dot3(c1, normal), layout::dot3(c2, normal));
-    if (layout::dot3(r0, c0) < 0.0f) turned = turned * -1.0f;
-    this->store(normals_, vertex, as_bits(layout::normalize_or(turned, vec3(0, 0, 1)), normal_bits.w));
-    if (push_.tangents != 0) {
-      const vec3 along(layout::dot3(r0, tangent), layout::dot3(r1, tangent), layout::dot3(r2, tangent));
-      this->store(tangents_, vertex, as_bits(layout::normalize_or(along, vec3(0)), tangent_bits.w));
+    // The cofactors: row i is the cross product of the rows i + 1 and i + 2.
+    const Lanes4 x1 = turned_once(m.x), x2 = turned_twice(m.x), y1 = turned_once(m.y), y2 = turned_twice(m.y),
+                 z1 = turned_once(m.z), z2 = turned_twice(m.z);
+    const Lanes4 cx = y1 * z2 - z1 * y2, cy = z1 * x2 - x1 * z2, cz = x1 * y2 - y1 * x2;
+    Lanes4 turned = cx * lane<0>(normal) + cy * lane<1>(normal) + cz * lane<2>(normal);
+    const float determinant = first_lane(m.x * cx + m.y * cy + m.z * cz);
+    if (determinant < 0.0f) turned = turned * all_lanes(-1.0f);
+    alignas(16) static constexpr float up[4] = {0, 0, 1, 0};
+    store_lanes(normalize_or(turned, load_lanes(up)), layout::floatBitsToUint(base_normal[3]),
+                this->stored(normals_, vertex));
+    if (base_tangent != nullptr) {
+      store_lanes(normalize_or(m.dot(tangent), all_lanes(0)), layout::floatBitsToUint(base_tangent[3]),
+                  this->stored(tangents_, vertex));
     }
   }
 
  private:
-  Rows weighted_matrix(uint32_t influence) {
+  struct Rows {
+    Lanes4 r0, r1, r2;
+  };
+
+  static const float* address(const Quads& buffer, uint64_t i) {
+    return reinterpret_cast<const float*>(buffer.words + 4 * i);
+  }
+
+  HWY_ATTR Rows weighted_matrix(uint32_t influence) {
     const uint64_t matrix = this->load(influences_, 2 * uint64_t(influence));
-    const float weight = uintBitsToFloat(this->load(influences_, 2 * uint64_t(influence) + 1));
-    return {as_vec4(this->load(matrices_, 3 * matrix)) * weight,
-            as_vec4(this->load(matrices_, 3 * matrix + 1)) * weight,
-            as_vec4(this->load(matrices_, 3 * matrix + 2)) * weight};
+    const Lanes4 weight =
+        all_lanes(layout::uintBitsToFloat(this->load(influences_, 2 * uint64_t(influence) + 1)));
+    return {load_lanes(this->loaded(matrices_, 3 * matrix)) * weight,
+            load_lanes(this->loaded(matrices_, 3 * matrix + 1)) * weight,
+            load_lanes(this->loaded(matrices_, 3 * matrix + 2)) * weight};
   }
 
   Quads base_positions_ = this->quads(0), base_normals_ = this->quads(1), base_tangents_ = this->quads(2);
@@ -78,10 +90,19 @@ class Blend : public Kernel<Probe> {
   layout::BlendPush push_ = this->template push<layout::BlendPush>();
 };
 
-}  // namespace
+LODESTONE_BLOCK_FUNCTION(blend, Blend)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(blend_block);
 
 void blend(const CpuDispatch& dispatch) {
-  run_pass<Blend>(dispatch, 2048);
+  run_blocks(dispatch, 2048, HWY_DYNAMIC_DISPATCH(blend_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

@@ -3,42 +3,50 @@
 #include "lodestone/layout/bounds.h"
 #include "lodestone/layout/frame.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/bounds_leaves.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
 
-using layout::Bound;
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/passes/bound_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
 class BoundsLeaves : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
 
-  void operator()(uint32_t index) {
-    const Bound c0 = bound_leaf(4 * index), c1 = bound_leaf(4 * index + 1), c2 = bound_leaf(4 * index + 2),
-                c3 = bound_leaf(4 * index + 3);
-    const Bound parent = layout::join(layout::join(c0, c1), layout::join(c2, c3));
+  HWY_ATTR void operator()(uint32_t index) {
+    const BoundLanes c0 = bound_leaf(4 * index), c1 = bound_leaf(4 * index + 1),
+                     c2 = bound_leaf(4 * index + 2), c3 = bound_leaf(4 * index + 3);
+    const BoundLanes parent = join(join(c0, c1), join(c2, c3));
     const uint32_t address = layout::level_base(push_.depth - 1) + index;
-    this->store(nodes_lo_, address, as_bits(parent.lo, layout::child_order(c0, c1, c2, c3)));
-    this->store(nodes_hi_, address, as_bits(parent.hi, 0));
+    store_lanes(parent.lo, child_order(c0, c1, c2, c3), this->stored(nodes_lo_, address));
+    store_lanes(parent.hi, 0, this->stored(nodes_hi_, address));
   }
 
  private:
-  Bound bound_leaf(uint32_t slot) {
-    Bound bound = layout::empty_bound();
+  HWY_ATTR BoundLanes bound_leaf(uint32_t slot) {
+    BoundLanes bound = empty_bound();
     uint32_t texel = layout::empty_slot, stride = 0;
     if (slot < push_.count) {
       texel = this->load(leaf_map_, 2 * uint64_t(slot));
       stride = this->load(leaf_map_, 2 * uint64_t(slot) + 1);
     }
     if (texel != layout::empty_slot) {
-      bound = layout::quad_bound(
-          as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
-          as_vec3(this->load(geometry_, texel + stride)), as_vec3(this->load(geometry_, texel + stride + 1)));
+      const Lanes4 a = load_lanes(this->loaded(geometry_, texel)),
+                   b = load_lanes(this->loaded(geometry_, texel + 1)),
+                   c = load_lanes(this->loaded(geometry_, texel + stride)),
+                   e = load_lanes(this->loaded(geometry_, texel + stride + 1));
+      bound = {min(min(a, b), min(c, e)), max(max(a, b), max(c, e))};
     }
     if (slot < push_.written) {
       const uint32_t address = layout::level_base(push_.depth) + slot;
-      this->store(nodes_lo_, address, as_bits(bound.lo, layout::leaf_flag | texel));
-      this->store(nodes_hi_, address, as_bits(bound.hi, stride));
+      store_lanes(bound.lo, layout::leaf_flag | texel, this->stored(nodes_lo_, address));
+      store_lanes(bound.hi, stride, this->stored(nodes_hi_, address));
     }
     return bound;
   }
@@ -48,10 +56,19 @@ class BoundsLeaves : public Kernel<Probe> {
   layout::BoundsPush push_ = this->template push<layout::BoundsPush>();
 };
 
-}  // namespace
+LODESTONE_BLOCK_FUNCTION(bounds_leaves, BoundsLeaves)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(bounds_leaves_block);
 
 void bounds_leaves(const CpuDispatch& dispatch) {
-  run_pass<BoundsLeaves>(dispatch, 1024);
+  run_blocks(dispatch, 1024, HWY_DYNAMIC_DISPATCH(bounds_leaves_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

@@ -2,36 +2,44 @@
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/layout/arithmetic.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/rasterise.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
 
-using glm::uvec4;
-using glm::vec3;
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/passes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
 class Rasterise : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
 
-  void operator()(uint32_t texel) {
-    const uvec4 source = this->load(texel_map_, texel);
-    uvec4 point(0), direction(0);
-    if (source.w != 0) {
-      const uvec4 triangle = this->load(triangles_, source.x);
-      const float b1 = layout::uintBitsToFloat(source.y), b2 = layout::uintBitsToFloat(source.z);
-      const float b0 = 1.0f - b1 - b2;
-      point = as_bits(layout::flush_tiny3(weighted(positions_, triangle, b0, b1, b2)), source.w);
-      direction = as_bits(weighted(normals_, triangle, b0, b1, b2), 0);
+  HWY_ATTR void operator()(uint32_t texel) {
+    const glm::uvec4 source = this->load(texel_map_, texel);
+    uint32_t* point = this->stored(geometry_, texel);
+    uint32_t* direction = this->stored(normal_map_, texel);
+    if (source.w == 0) {
+      store_lanes(all_lanes(0), 0, point);
+      store_lanes(all_lanes(0), 0, direction);
+      return;
     }
-    this->store(geometry_, texel, point);
-    this->store(normal_map_, texel, direction);
+    const glm::uvec4 triangle = this->load(triangles_, source.x);
+    const float b1 = layout::uintBitsToFloat(source.y), b2 = layout::uintBitsToFloat(source.z);
+    const float b0 = 1.0f - b1 - b2;
+    store_lanes(flush_tiny(weighted(positions_, triangle, b0, b1, b2)), source.w, point);
+    store_lanes(weighted(normals_, triangle, b0, b1, b2), 0, direction);
   }
 
  private:
-  vec3 weighted(const Quads& vertices, const uvec4& triangle, float b0, float b1, float b2) {
-    const vec3 v0 = as_vec3(this->load(vertices, triangle.x)), v1 = as_vec3(this->load(vertices, triangle.y)),
-               v2 = as_vec3(this->load(vertices, triangle.z));
-    return v0 * b0 + v1 * b1 + v2 * b2;
+  HWY_ATTR Lanes4 weighted(const Quads& vertices, const glm::uvec4& triangle, float b0, float b1, float b2) {
+    const Lanes4 v0 = load_lanes(this->loaded(vertices, triangle.x)),
+                 v1 = load_lanes(this->loaded(vertices, triangle.y)),
+                 v2 = load_lanes(this->loaded(vertices, triangle.z));
+    return v0 * all_lanes(b0) + v1 * all_lanes(b1) + v2 * all_lanes(b2);
   }
 
   Quads texel_map_ = this->quads(0), triangles_ = this->quads(1);
@@ -39,10 +47,19 @@ class Rasterise : public Kernel<Probe> {
   Quads geometry_ = this->quads(4), normal_map_ = this->quads(5);
 };
 
-}  // namespace
+LODESTONE_BLOCK_FUNCTION(rasterise, Rasterise)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(rasterise_block);
 
 void rasterise(const CpuDispatch& dispatch) {
-  run_pass<Rasterise>(dispatch, 4096);
+  run_blocks(dispatch, 4096, HWY_DYNAMIC_DISPATCH(rasterise_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif
