@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/memory.h"
 #include "lodestone/cpu_fallback/kernel.h"
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/cpu_fallback/passes/trace_wide.h"
@@ -50,10 +51,9 @@ class Storage {
   explicit Storage(const BufferDesc& desc)
       : desc_(desc), bytes_(std::max<uint64_t>(desc.elements * desc.element_bytes, 4)) {
     const uint64_t padded = (bytes_ + 63) / 64 * 64;
+    require_memory(padded, "buffer " + desc.name);
     words_ = static_cast<uint32_t*>(std::aligned_alloc(64, padded));
-    if (words_ == nullptr) {
-      fail(ExitCode::machine, desc.name, "needs {} MB of memory, more than there is", bytes_ >> 20);
-    }
+    if (words_ == nullptr) throw std::bad_alloc();
     std::memset(words_, 0, padded);
   }
   ~Storage() { std::free(words_); }

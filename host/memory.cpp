@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/memory.h"
 #include "lodestone/host/check.h"
 
 namespace lodestone::host {
@@ -63,8 +64,14 @@ uint32_t MemoryAllocator::find_type(uint32_t allowed, MemoryUse use) const {
 }
 
 uint32_t MemoryAllocator::add_block(uint64_t size, uint32_t type, const std::string& owner) {
+  if (device_.physical().shares_memory()) require_memory(size, "buffer " + owner);
+  // Any buffer in the block may be one that kernels reach by its address.
+  VkMemoryAllocateFlagsInfo flags{};
+  flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  if (device_.physical().features12.bufferDeviceAddress == VK_TRUE) info.pNext = &flags;
   info.allocationSize = size;
   info.memoryTypeIndex = type;
   VkDeviceMemory memory = VK_NULL_HANDLE;
