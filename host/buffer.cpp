@@ -34,6 +34,13 @@ DeviceBuffer::~DeviceBuffer() {
   memory_.free(allocation_);
 }
 
+VkDeviceAddress DeviceBuffer::address() const {
+  VkBufferDeviceAddressInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+  info.buffer = handle_;
+  return vkGetBufferDeviceAddress(device_.handle(), &info);
+}
+
 VkBufferView DeviceBuffer::view(VkBufferView& cached, VkFormat format) {
   if (cached != VK_NULL_HANDLE) return cached;
   VkBufferViewCreateInfo info{};

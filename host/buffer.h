@@ -24,6 +24,8 @@ class DeviceBuffer {
   uint64_t bytes() const { return bytes_; }
   std::byte* mapped() const { return allocation_.mapped; }  // null: not visible to the host
   const std::string& name() const { return name_; }
+  // Where kernels find it; made with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+  VkDeviceAddress address() const;
 
   // The whole buffer as R32_UINT or R32G32B32A32_UINT; made at the first call.
   VkBufferView word_view() { return view(word_view_, VK_FORMAT_R32_UINT); }

@@ -35,8 +35,7 @@ const BufferEntry& BufferTable::get(render::BufferId id) const {
 }
 
 void BufferTable::check_id(render::BufferId id) const {
-  require(id >= 1 && id <= entries_.size() && entries_[id - 1].buffer != nullptr, "there is no buffer {}",
-          id);
+  require(id >= 1 && id <= entries_.size() && entries_[id - 1].array != nullptr, "there is no buffer {}", id);
 }
 
 }  // namespace lodestone::host

@@ -6,14 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "lodestone/host/buffer.h"
+#include "lodestone/host/device_array.h"
 #include "lodestone/render/backend.h"
 
 namespace lodestone::host {
 
 struct BufferEntry {
   render::BufferDesc desc;
-  std::unique_ptr<DeviceBuffer> buffer;
+  std::unique_ptr<DeviceArray> array;
   uint64_t last_batch = 0;  // the youngest batch that uses it
 
   uint64_t bytes() const { return desc.elements * desc.element_bytes; }  // what its user sees

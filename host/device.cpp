@@ -33,6 +33,7 @@ struct EnabledFeatures {
     vulkan12.shaderFloat16 = has.features12.shaderFloat16;
     vulkan12.shaderInt8 = has.features12.shaderInt8;
     vulkan12.shaderSubgroupExtendedTypes = has.features12.shaderSubgroupExtendedTypes;
+    vulkan12.bufferDeviceAddress = has.features12.bufferDeviceAddress;
   }
   EnabledFeatures(const EnabledFeatures&) = delete;
   EnabledFeatures& operator=(const EnabledFeatures&) = delete;

@@ -43,6 +43,8 @@ std::string unmet(spv::Capability capability, const PhysicalDevice& device) {
       return need(device.features11.storageBuffer16BitAccess, "16-bit storage");
     case spv::CapabilityStorageBuffer8BitAccess:
       return need(device.features12.storageBuffer8BitAccess, "8-bit storage");
+    case spv::CapabilityPhysicalStorageBufferAddresses:
+      return need(device.features12.bufferDeviceAddress, "buffer device addresses");
     case spv::CapabilityGroupNonUniform:
       return subgroup(VK_SUBGROUP_FEATURE_BASIC_BIT, "subgroups");
     case spv::CapabilityGroupNonUniformVote:

@@ -14,8 +14,9 @@
 namespace lodestone::host {
 
 PipelineLibrary::PipelineLibrary(const Device& device, PipelineCache& cache,
-                                 std::span<const kernels::Kernel> kernels, bool texel_buffers, bool counting)
-    : device_(device), cache_(cache), kernels_(kernels), texel_buffers_(texel_buffers), counting_(counting) {}
+                                 std::span<const kernels::Kernel> kernels, uint32_t segment_shift,
+                                 bool counting)
+    : device_(device), cache_(cache), kernels_(kernels), segment_shift_(segment_shift), counting_(counting) {}
 
 PipelineLibrary::~PipelineLibrary() {
   for (const auto& [key, pipeline] : pipelines_)
@@ -26,25 +27,21 @@ PipelineLibrary::~PipelineLibrary() {
   }
 }
 
-Pipeline& PipelineLibrary::get(const render::PassDecl& pass,
+Pipeline& PipelineLibrary::get(const render::PassDecl& pass, const KernelVariant& variant,
                                const std::array<uint32_t, render::pass_constants>& constants) {
-  const PipelineLayout& layout = get_layout(pass);
+  const PipelineLayout& layout = get_layout(pass, variant.form);
   const VkPhysicalDeviceLimits& limits = device_.limits();
   const uint32_t workgroup =
       std::min({pass.workgroup, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]});
   require(workgroup > 0, "pass {} has a workgroup of no invocations", pass.name);
-  const PipelineKey key{pass.kernel, workgroup, constants, &layout};
+  const PipelineKey key{pass.kernel, variant, workgroup, constants, &layout};
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
   auto pipeline = std::make_unique<Pipeline>();
-  pipeline->handle = compile(pass, layout, workgroup, constants);
+  pipeline->handle = compile(pass, variant, layout, workgroup, constants);
+  pipeline->variant = variant;
   pipeline->layout = &layout;
   pipeline->workgroup = workgroup;
   return *pipelines_.emplace(key, std::move(pipeline)).first->second;
-}
-
-VkDescriptorType PipelineLibrary::descriptor_type(render::BindingKind kind) const {
-  return texel_buffers_ && kind != render::BindingKind::structs ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
-                                                                : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 void PipelineLibrary::check_limits(const render::PassDecl& pass,
@@ -66,13 +63,16 @@ void PipelineLibrary::check_limits(const render::PassDecl& pass,
   demand(pass.push_bytes, limits.maxPushConstantsSize, "bytes of push constants");
 }
 
-const PipelineLayout& PipelineLibrary::get_layout(const render::PassDecl& pass) {
+const PipelineLayout& PipelineLibrary::get_layout(const render::PassDecl& pass, BufferForm form) {
   require(pass.push_bytes % 4 == 0, "pass {} has {} bytes of push constants, not a multiple of 4", pass.name,
           pass.push_bytes);
   require(pass.bindings.size() < DescriptorAllocator::max_bindings, "pass {} has {} bindings", pass.name,
           pass.bindings.size());
   std::vector<VkDescriptorType> types;
-  for (const render::Binding& binding : pass.bindings) types.push_back(descriptor_type(binding.kind));
+  for (const render::Binding& binding : pass.bindings) {
+    const bool texel = form == BufferForm::texel && binding.kind != render::BindingKind::structs;
+    types.push_back(texel ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  }
   types.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);  // counters
   const LayoutKey key{types, pass.push_bytes};
   if (const auto found = layouts_.find(key); found != layouts_.end()) return *found->second;
@@ -104,8 +104,9 @@ const PipelineLayout& PipelineLibrary::get_layout(const render::PassDecl& pass) 
   return *layouts_.emplace(key, std::move(layout)).first->second;
 }
 
-VkShaderModule PipelineLibrary::load_module(const render::PassDecl& pass) const {
-  const std::string name = std::string(pass.kernel) + (texel_buffers_ ? "_texel" : "");
+VkShaderModule PipelineLibrary::load_module(const render::PassDecl& pass, BufferForm form) const {
+  constexpr const char* suffixes[] = {"", "_texel", "_split"};
+  const std::string name = std::string(pass.kernel) + suffixes[size_t(form)];
   const std::span<const uint32_t> words = kernels::find_kernel(kernels_, name);
   require(!words.empty(), "there is no kernel {}", name);
   const std::vector<std::string> needs = find_unmet_needs(words, device_.physical());
@@ -124,19 +125,21 @@ VkShaderModule PipelineLibrary::load_module(const render::PassDecl& pass) const 
   return module;
 }
 
-VkPipeline PipelineLibrary::compile(const render::PassDecl& pass, const PipelineLayout& layout,
-                                    uint32_t workgroup,
+VkPipeline PipelineLibrary::compile(const render::PassDecl& pass, const KernelVariant& variant,
+                                    const PipelineLayout& layout, uint32_t workgroup,
                                     const std::array<uint32_t, render::pass_constants>& constants) {
-  // Constant i is word i: the workgroup, whether to count, and what the dispatch chose.
-  std::array<uint32_t, 2 + render::pass_constants> values{workgroup, counting_ ? 1u : 0u};
+  // Constant i is word i: the workgroup, whether to count, what the dispatch chose, and how arrays are split.
+  std::array<uint32_t, 4 + render::pass_constants> values{workgroup, counting_ ? 1u : 0u};
   std::copy(constants.begin(), constants.end(), values.begin() + 2);
+  values[2 + render::pass_constants] = variant.addressed;
+  values[3 + render::pass_constants] = segment_shift_;
   std::array<VkSpecializationMapEntry, values.size()> entries{};
   for (uint32_t i = 0; i < entries.size(); ++i)
     entries[i] = {i, uint32_t(i * sizeof(uint32_t)), sizeof(uint32_t)};
   const VkSpecializationInfo specialization{uint32_t(entries.size()), entries.data(), sizeof(values),
                                             values.data()};
 
-  const VkShaderModule module = load_module(pass);
+  const VkShaderModule module = load_module(pass, variant.form);
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;

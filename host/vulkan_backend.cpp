@@ -24,6 +24,10 @@ namespace {
 constexpr uint64_t staging_chunk = uint64_t(64) << 20;   // one staging buffer
 constexpr uint64_t staging_limit = uint64_t(256) << 20;  // of a batch; then it is submitted
 
+uint32_t element_bytes(render::BindingKind kind) {
+  return kind == render::BindingKind::quad ? 16 : 4;
+}
+
 std::string digest_of(std::span<const kernels::Kernel> kernels) {
   ContentHash hash;
   for (const kernels::Kernel& kernel : kernels) {
@@ -41,11 +45,12 @@ class VulkanBackend final : public render::Backend {
       : instance_(std::move(instance)),
         physical_(physical),
         info_(details),
-        texel_buffers_(uses_texel_buffers(physical, host_options.texel_buffers)),
+        limits_(physical, uses_texel_buffers(physical, host_options.texel_buffers),
+                host_options.max_buffer_bytes),
         device_(*instance_, physical_),
         memory_(device_, host_options.map_device_memory),
         cache_(device_, host_options.cache_folder, digest_of(host_options.kernels)),
-        pipelines_(device_, cache_, host_options.kernels, texel_buffers_, options.counters),
+        pipelines_(device_, cache_, host_options.kernels, limits_.segment_shift, options.counters),
         queue_(device_, memory_, device_.has_timestamps() ? std::max(1u, host_options.passes_per_batch) : 1,
                options.counters) {}
 
@@ -63,11 +68,12 @@ class VulkanBackend final : public render::Backend {
   // Makes the next command wait for those it depends on.
   void order(Batch& batch, std::span<const BufferUse> uses);
   void fill_with_zero(render::BufferId id);
+  void write_table(render::BufferId id);
   void copy_in(BufferEntry& entry, render::BufferId id, std::span<const std::byte> bytes, uint64_t offset);
   void copy_out(BufferEntry& entry, render::BufferId id, std::span<std::byte> bytes, uint64_t offset);
-  void copy(Batch& batch, VkBuffer from, VkBuffer to, const VkBufferCopy& region, const BufferUse& use);
   void check_dispatch(const render::Dispatch& dispatch) const;
   void check_range(const render::Dispatch& dispatch, size_t binding, const BufferEntry& entry) const;
+  KernelVariant choose_variant(const render::Dispatch& dispatch) const;
   void record(Batch& batch, Pipeline& pipeline, const render::Dispatch& dispatch);
   VkDescriptorSet write_descriptors(Batch& batch, const Pipeline& pipeline, const render::Dispatch& dispatch,
                                     uint32_t slot);
@@ -77,7 +83,7 @@ class VulkanBackend final : public render::Backend {
   std::unique_ptr<Instance> instance_;
   PhysicalDevice physical_;
   DeviceDetails info_;
-  bool texel_buffers_;
+  ArrayLimits limits_;
   Device device_;
   MemoryAllocator memory_;
   PipelineCache cache_;
@@ -91,41 +97,54 @@ class VulkanBackend final : public render::Backend {
 
 render::BufferId VulkanBackend::create(const render::BufferDesc& desc) {
   require(desc.element_bytes > 0, "buffer {} has elements of no bytes", desc.name);
-  const uint64_t limit = max_buffer_bytes(physical_, texel_buffers_, desc.element_bytes);
+  const uint64_t limit = limits_.array_bytes(desc.element_bytes);
   if (desc.elements > limit / desc.element_bytes) {
     fail(ExitCode::device, device_.name(),
-         "buffer {} needs {} x {} bytes, where one buffer of the device can be {} bytes at most: use a lower "
+         "buffer {} needs {} x {} bytes, where the device can show kernels {} bytes at most: use a lower "
          "resolution or another --device",
          desc.name, desc.elements, desc.element_bytes, limit);
   }
   // Nothing of Vulkan may be empty; fills and copies go by words.
   const uint64_t bytes = (std::max<uint64_t>(1, desc.elements) * desc.element_bytes + 3) / 4 * 4;
-  VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                             VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  if (texel_buffers_) usage |= VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
-  auto buffer = std::make_unique<DeviceBuffer>(device_, memory_, bytes, usage, MemoryUse::device, desc.name);
-  const render::BufferId id = buffers_.add({desc, std::move(buffer), 0});
+  auto array = std::make_unique<DeviceArray>(device_, memory_, limits_, bytes, desc.element_bytes, desc.name);
+  const render::BufferId id = buffers_.add({desc, std::move(array), 0});
   fill_with_zero(id);
+  write_table(id);
   return id;
 }
 
 void VulkanBackend::fill_with_zero(render::BufferId id) {
   BufferEntry& entry = buffers_.get(id);
-  if (entry.buffer->mapped() != nullptr) {
-    std::memset(entry.buffer->mapped(), 0, entry.buffer->bytes());
+  if (entry.array->is_mapped()) {
+    for (const auto& buffer : entry.array->buffers()) std::memset(buffer->mapped(), 0, buffer->bytes());
     return;
   }
   Batch& batch = queue_.recording();
   const BufferUse use{id, false, true};
   order(batch, {&use, 1});
-  vkCmdFillBuffer(batch.commands(), entry.buffer->handle(), 0, VK_WHOLE_SIZE, 0);
+  for (const auto& buffer : entry.array->buffers())
+    vkCmdFillBuffer(batch.commands(), buffer->handle(), 0, VK_WHOLE_SIZE, 0);
+  entry.last_batch = batch.serial();
+}
+
+void VulkanBackend::write_table(render::BufferId id) {
+  BufferEntry& entry = buffers_.get(id);
+  DeviceBuffer* const table = entry.array->table();
+  if (table == nullptr) return;
+  const std::vector<VkDeviceAddress> addresses = entry.array->segment_addresses();
+  Batch& batch = queue_.recording();
+  const BufferUse use{id, false, true};
+  order(batch, {&use, 1});
+  vkCmdUpdateBuffer(batch.commands(), table->handle(), 0, addresses.size() * sizeof(VkDeviceAddress),
+                    addresses.data());
   entry.last_batch = batch.serial();
 }
 
 void VulkanBackend::destroy(render::BufferId id) {
   BufferEntry entry = buffers_.take(id);
+  if (entry.last_batch <= queue_.completed()) return;
   // The youngest batch finishes last.
-  if (entry.last_batch > queue_.completed()) queue_.youngest().keep(std::move(entry.buffer));
+  for (auto& buffer : entry.array->release()) queue_.youngest().keep(std::move(buffer));
 }
 
 void VulkanBackend::upload(render::BufferId id, std::span<const std::byte> bytes, uint64_t offset) {
@@ -135,11 +154,14 @@ void VulkanBackend::upload(render::BufferId id, std::span<const std::byte> bytes
           entry.bytes());
   if (bytes.empty()) return;
   const bool idle = entry.last_batch <= queue_.completed();
-  if (entry.buffer->mapped() != nullptr && idle) {
-    std::memcpy(entry.buffer->mapped() + offset, bytes.data(), bytes.size());
-  } else {
+  if (!idle || !entry.array->is_mapped()) {
     copy_in(entry, id, bytes, offset);
+    return;
   }
+  entry.array->for_each_piece(offset, bytes.size(),
+                              [&](DeviceBuffer& buffer, uint64_t within, uint64_t done, uint64_t size) {
+                                std::memcpy(buffer.mapped() + within, bytes.data() + done, size);
+                              });
 }
 
 void VulkanBackend::download(render::BufferId id, std::span<std::byte> bytes, uint64_t offset) {
@@ -147,53 +169,62 @@ void VulkanBackend::download(render::BufferId id, std::span<std::byte> bytes, ui
   require(offset <= entry.bytes() && bytes.size() <= entry.bytes() - offset,
           "{} bytes at {} lie outside buffer {} of {} bytes", bytes.size(), offset, entry.desc.name,
           entry.bytes());
-  if (entry.buffer->mapped() == nullptr) {
+  if (!entry.array->is_mapped()) {
     copy_out(entry, id, bytes, offset);
     return;
   }
   queue_.wait_all();
   hazards_.clear();
-  if (!bytes.empty()) std::memcpy(bytes.data(), entry.buffer->mapped() + offset, bytes.size());
+  entry.array->for_each_piece(offset, bytes.size(),
+                              [&](DeviceBuffer& buffer, uint64_t within, uint64_t done, uint64_t size) {
+                                std::memcpy(bytes.data() + done, buffer.mapped() + within, size);
+                              });
 }
 
 void VulkanBackend::copy_in(BufferEntry& entry, render::BufferId id, std::span<const std::byte> bytes,
                             uint64_t offset) {
   while (!bytes.empty()) {
-    const size_t size = std::min<uint64_t>(bytes.size(), staging_chunk);
-    auto staging = std::make_unique<DeviceBuffer>(device_, memory_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+    const size_t chunk = std::min<uint64_t>(bytes.size(), staging_chunk);
+    auto staging = std::make_unique<DeviceBuffer>(device_, memory_, chunk, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                   MemoryUse::upload, "upload to " + entry.desc.name);
-    std::memcpy(staging->mapped(), bytes.data(), size);
+    std::memcpy(staging->mapped(), bytes.data(), chunk);
     Batch& batch = queue_.recording();
-    copy(batch, staging->handle(), entry.buffer->handle(), {0, offset, size}, {id, false, true});
+    const BufferUse use{id, false, true};
+    order(batch, {&use, 1});
+    entry.array->for_each_piece(
+        offset, chunk, [&](DeviceBuffer& buffer, uint64_t within, uint64_t done, uint64_t size) {
+          const VkBufferCopy region{done, within, size};
+          vkCmdCopyBuffer(batch.commands(), staging->handle(), buffer.handle(), 1, &region);
+        });
     entry.last_batch = batch.serial();
     batch.keep(std::move(staging));
     if (batch.kept_bytes() >= staging_limit) queue_.submit();
-    bytes = bytes.subspan(size);
-    offset += size;
+    bytes = bytes.subspan(chunk);
+    offset += chunk;
   }
 }
 
 void VulkanBackend::copy_out(BufferEntry& entry, render::BufferId id, std::span<std::byte> bytes,
                              uint64_t offset) {
   while (!bytes.empty()) {
-    const size_t size = std::min<uint64_t>(bytes.size(), staging_chunk);
-    const DeviceBuffer staging(device_, memory_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback,
+    const size_t chunk = std::min<uint64_t>(bytes.size(), staging_chunk);
+    const DeviceBuffer staging(device_, memory_, chunk, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback,
                                "download of " + entry.desc.name);
     Batch& batch = queue_.recording();
-    copy(batch, entry.buffer->handle(), staging.handle(), {offset, 0, size}, {id, true, false});
+    const BufferUse use{id, true, false};
+    order(batch, {&use, 1});
+    entry.array->for_each_piece(
+        offset, chunk, [&](DeviceBuffer& buffer, uint64_t within, uint64_t done, uint64_t size) {
+          const VkBufferCopy region{within, done, size};
+          vkCmdCopyBuffer(batch.commands(), buffer.handle(), staging.handle(), 1, &region);
+        });
     entry.last_batch = batch.serial();
     queue_.wait_all();
     hazards_.clear();
-    std::memcpy(bytes.data(), staging.mapped(), size);
-    bytes = bytes.subspan(size);
-    offset += size;
+    std::memcpy(bytes.data(), staging.mapped(), chunk);
+    bytes = bytes.subspan(chunk);
+    offset += chunk;
   }
-}
-
-void VulkanBackend::copy(Batch& batch, VkBuffer from, VkBuffer to, const VkBufferCopy& region,
-                         const BufferUse& use) {
-  order(batch, {&use, 1});
-  vkCmdCopyBuffer(batch.commands(), from, to, 1, &region);
 }
 
 void VulkanBackend::order(Batch& batch, std::span<const BufferUse> uses) {
@@ -224,25 +255,41 @@ void VulkanBackend::check_dispatch(const render::Dispatch& dispatch) const {
 void VulkanBackend::check_range(const render::Dispatch& dispatch, size_t binding,
                                 const BufferEntry& entry) const {
   const render::BindingKind kind = dispatch.pass->bindings[binding].kind;
-  const uint32_t element = kind == render::BindingKind::quad ? 16 : 4;
-  const bool is_texel = texel_buffers_ && kind != render::BindingKind::structs;
-  const uint64_t bytes = entry.buffer->bytes();
-  require(kind == render::BindingKind::structs || bytes % element == 0,
-          "buffer {} of {} bytes cannot be bound as elements of {} bytes", entry.desc.name, bytes, element);
-  const uint64_t limit = is_texel ? uint64_t(physical_.limits().maxTexelBufferElements) * element
-                                  : physical_.limits().maxStorageBufferRange;
-  if (bytes > limit) {
+  const uint64_t bytes = entry.array->bytes();
+  if (kind != render::BindingKind::structs) {
+    require(bytes % element_bytes(kind) == 0, "buffer {} of {} bytes cannot be bound as elements of {} bytes",
+            entry.desc.name, bytes, element_bytes(kind));
+  } else if (bytes > limits_.storage_bytes) {
     fail(ExitCode::device, device_.name(),
          "buffer {} has {} bytes, of which pass {} can see {} at most on this device: use a lower resolution "
-         "or "
-         "another --device",
-         entry.desc.name, bytes, dispatch.pass->name, limit);
+         "or another --device",
+         entry.desc.name, bytes, dispatch.pass->name, limits_.storage_bytes);
   }
+}
+
+// The fastest variant that can see all arrays whole, or the one that gets the addresses of those it cannot.
+KernelVariant VulkanBackend::choose_variant(const render::Dispatch& dispatch) const {
+  bool fits_texel_buffers = limits_.texel_buffers;
+  uint32_t addressed = 0;
+  for (size_t i = 0; i < dispatch.buffers.size(); ++i) {
+    const render::BindingKind kind = dispatch.pass->bindings[i].kind;
+    if (kind == render::BindingKind::structs) continue;
+    const uint64_t bytes = buffers_.get(dispatch.buffers[i]).array->bytes();
+    if (bytes > limits_.texel_bytes(element_bytes(kind))) fits_texel_buffers = false;
+    if (bytes > limits_.storage_bytes) addressed |= 1u << i;
+  }
+  if (fits_texel_buffers) return {BufferForm::texel, 0};
+  if (addressed == 0) return {BufferForm::storage, 0};
+  if (limits_.has_addresses) return {BufferForm::split, addressed};
+  fail(ExitCode::device, device_.name(),
+       "pass {} has arrays that only texel buffers can show and others that only storage buffers can: use a "
+       "lower resolution or another --device",
+       dispatch.pass->name);
 }
 
 void VulkanBackend::run(const render::Dispatch& dispatch) {
   check_dispatch(dispatch);
-  Pipeline& pipeline = pipelines_.get(*dispatch.pass, dispatch.constants);
+  Pipeline& pipeline = pipelines_.get(*dispatch.pass, choose_variant(dispatch), dispatch.constants);
   record(queue_.recording(), pipeline, dispatch);
   if (!queue_.recording().is_full()) return;
   // Without timestamps the host's clock is all there is: one pass at a time.
@@ -307,12 +354,14 @@ VkDescriptorSet VulkanBackend::write_descriptors(Batch& batch, const Pipeline& p
       ranges[i] = batch.profiler().counters_of(slot);
       continue;
     }
-    DeviceBuffer& buffer = *buffers_.get(dispatch.buffers[i]).buffer;
-    if (writes[i].descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
-      ranges[i] = {buffer.handle(), 0, VK_WHOLE_SIZE};
+    DeviceArray& array = *buffers_.get(dispatch.buffers[i]).array;
+    if ((pipeline.variant.addressed >> i & 1u) != 0) {
+      ranges[i] = {array.table()->handle(), 0, VK_WHOLE_SIZE};
+    } else if (writes[i].descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
+      ranges[i] = {array.whole().handle(), 0, VK_WHOLE_SIZE};
     } else {
       const bool quads = dispatch.pass->bindings[i].kind == render::BindingKind::quad;
-      views[i] = quads ? buffer.quad_view() : buffer.word_view();
+      views[i] = quads ? array.whole().quad_view() : array.whole().word_view();
     }
   }
   vkUpdateDescriptorSets(device_.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,8 @@ struct HostOptions {
   TexelBuffers texel_buffers = TexelBuffers::automatic;
   bool map_device_memory =
       true;  // false: copy through staging buffers even where host and device share memory
+  uint64_t max_buffer_bytes = std::numeric_limits<uint64_t>::max();  // arrays larger than this are split, as
+                                                                     // they are by the device's own limit
   uint32_t passes_per_batch =
       64;  // a batch of commands is submitted when it has so many passes, or somebody waits
   std::span<const kernels::Kernel> kernels =

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What every kernel starts with: its index, its buffers and its counters. Buffers of words (4 bytes) and quads (16 bytes)
-// are texel buffers in one variant of each kernel (on lavapipe nearly twice as fast, and with room for 2 GiB) and storage
-// buffers in the other; kernels name them only through these macros.
+// are storage buffers in one variant of each kernel and texel buffers in another (on lavapipe nearly twice as fast, and
+// with room for 2 GiB). The third is for arrays that neither can show whole; it reaches those by addresses. Kernels name
+// their buffers only through these macros.
 #extension GL_EXT_scalar_block_layout : require
 
 #include "layout/counters.h"
@@ -28,8 +29,28 @@ void count_write(uint words) {
 #define RAW_STORE4(name, i, value) imageStore(name, int(i), value)
 #define RAW_STORE1(name, i, value) imageStore(name, int(i), uvec4(value))
 #else
-#define QUADS(slot, access, name) layout(set = 0, binding = slot, scalar) access buffer name##_block { uvec4 name[]; }
-#define WORDS(slot, access, name) layout(set = 0, binding = slot, scalar) access buffer name##_block { uint name[]; }
+#define DATA(slot, access, type, name) layout(set = 0, binding = slot, scalar) access buffer name##_block { type name[]; }
+#if LODESTONE_SPLIT_BUFFERS
+// An array is cut into segments of 2^segment_shift bytes. A binding shows either the array or, where its bit is set in
+// `addressed`, the addresses of the array's segments; all pipelines know at their creation which.
+#extension GL_EXT_buffer_reference_uvec2 : require
+layout(constant_id = 6) const uint addressed = 0u;
+layout(constant_id = 7) const uint segment_shift = 31u;
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer QuadSegment { uvec4 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer WordSegment { uint at[]; };
+#define SPLIT_DATA(slot, access, type, name)                                                                              \
+  DATA(slot, access, type, name);                                                                                         \
+  layout(set = 0, binding = slot, scalar) readonly buffer name##_segments_block { uvec2 name##_segments[]; };             \
+  const uint name##_bit = 1u << slot
+#define QUADS(slot, access, name) SPLIT_DATA(slot, access, uvec4, name)
+#define WORDS(slot, access, name) SPLIT_DATA(slot, access, uint, name)
+#define IN_SEGMENT(segment, name, i, shift) segment(name##_segments[(i) >> (shift)]).at[(i) & ((1u << (shift)) - 1u)]
+#define IN_SEGMENT4(name, i) IN_SEGMENT(QuadSegment, name, i, segment_shift - 4u)
+#define IN_SEGMENT1(name, i) IN_SEGMENT(WordSegment, name, i, segment_shift - 2u)
+#else
+#define QUADS(slot, access, name) DATA(slot, access, uvec4, name)
+#define WORDS(slot, access, name) DATA(slot, access, uint, name)
+#endif
 #define RAW_LOAD4(name, i) name[i]
 #define RAW_LOAD1(name, i) name[i]
 #define RAW_STORE4(name, i, value) name[i] = value
@@ -37,23 +58,33 @@ void count_write(uint words) {
 #endif
 #define STRUCTS(slot, access, type, name) layout(set = 0, binding = slot, scalar) access buffer name##_block { type name[]; }
 
+#if LODESTONE_SPLIT_BUFFERS
+#define IF_SPLIT(name, statement) if ((addressed & name##_bit) != 0u) { statement; } else
+#else
+#define IF_SPLIT(name, statement)
+#endif
+
 #define LOAD4(result, name, i) \
   {                            \
+    IF_SPLIT(name, result = IN_SEGMENT4(name, i)) \
     result = RAW_LOAD4(name, i); \
     count_read(4u);            \
   }
 #define LOAD1(result, name, i) \
   {                            \
+    IF_SPLIT(name, result = IN_SEGMENT1(name, i)) \
     result = RAW_LOAD1(name, i); \
     count_read(1u);            \
   }
 #define STORE4(name, i, value)    \
   {                               \
+    IF_SPLIT(name, IN_SEGMENT4(name, i) = value) \
     RAW_STORE4(name, i, value);   \
     count_write(4u);              \
   }
 #define STORE1(name, i, value)    \
   {                               \
+    IF_SPLIT(name, IN_SEGMENT1(name, i) = value) \
     RAW_STORE1(name, i, value);   \
     count_write(1u);              \
   }

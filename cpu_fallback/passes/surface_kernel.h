@@ -27,7 +27,7 @@ class SurfaceKernel : public Kernel<Probe> {
         texel_map = this->quads(3), triangles = this->quads(4), positions = this->quads(5),
         normals = this->quads(6), tangents = this->quads(7), texcoords = this->quads(8);
   Words images = this->words(9), srgb_table = this->words(10);
-  Structs<layout::ChartRecord> charts = this->template structs<layout::ChartRecord>(11);
+  Quads charts = this->quads(11);
   Structs<layout::PartRecord> parts = this->template structs<layout::PartRecord>(12);
   Structs<layout::MaterialRecord> materials = this->template structs<layout::MaterialRecord>(13);
   Structs<layout::TextureRecord> textures = this->template structs<layout::TextureRecord>(14);
@@ -45,6 +45,9 @@ class SurfaceKernel : public Kernel<Probe> {
   static constexpr uint no_index = layout::no_index, chart_grid = layout::chart_grid;
   static float uintBitsToFloat(uint bits) {
     return layout::uintBitsToFloat(bits);
+  }
+  static ChartRecord chart_record(uvec4 a, uvec4 b) {
+    return layout::chart_record(a, b);
   }
   static float dot3(vec3 a, vec3 b) {
     return layout::dot3(a, b);

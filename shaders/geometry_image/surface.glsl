@@ -15,7 +15,7 @@ QUADS(7, readonly, tangents);
 QUADS(8, readonly, texcoords);
 WORDS(9, readonly, images);
 WORDS(10, readonly, srgb_table);
-STRUCTS(11, readonly, ChartRecord, charts);
+QUADS(11, readonly, charts);
 STRUCTS(12, readonly, PartRecord, parts);
 STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);

@@ -34,6 +34,19 @@ struct ChartRecord {
   uint slot_count;      // a power of 4
   uint pad;
 };
+// There can be a chart a triangle, so that charts too are an array of quads, two each.
+FN ChartRecord chart_record(uvec4 a, uvec4 b) {
+  ChartRecord chart;
+  chart.first_texel = a.x;
+  chart.width = a.y;
+  chart.height = a.z;
+  chart.kind = a.w;
+  chart.first_triangle = b.x;
+  chart.first_slot = b.y;
+  chart.slot_count = b.z;
+  chart.pad = b.w;
+  return chart;
+}
 
 // Texel map, a quad buffer: { triangle, barycentric of vertex 1, of vertex 2 (float bits), chart + 1 }; all zero: no texel.
 // Leaf map, a word buffer, two words a slot: { texel of corner a (empty_slot: none), row stride in texels }.
@@ -62,6 +75,10 @@ FN uint gather_bits(uint x) {
   x = (x | (x >> 8u)) & 0x0000ffffu;
   return x;
 }
+
+#ifdef __cplusplus
+static_assert(sizeof(ChartRecord) == 2 * sizeof(uvec4));
+#endif
 
 LODESTONE_LAYOUT_END
 #endif

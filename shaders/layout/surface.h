@@ -21,8 +21,11 @@ FN SurfacePoint locate(uint primitive, float u, float v) {
   uint second_half = primitive & 1u;
   uvec4 bits;
   LOAD4(bits, geometry, texel);
-  ChartRecord chart = charts[bits.w - 1u];
-  count_read(8u);
+  uvec4 record0;
+  uvec4 record1;
+  LOAD4(record0, charts, 2u * (bits.w - 1u));
+  LOAD4(record1, charts, 2u * (bits.w - 1u) + 1u);
+  ChartRecord chart = chart_record(record0, record1);
   point.texel[0] = second_half == 0u ? texel : texel + chart.width + 1u;
   point.texel[1] = second_half == 0u ? texel + 1u : texel + chart.width;
   point.texel[2] = second_half == 0u ? texel + chart.width : texel + 1u;

@@ -1,8 +1,9 @@
 # lodestone_embed_kernels(TARGET ROOT NAMESPACE): compiles ROOT/FOLDER/NAME.comp, checks and embeds the result.
 #
-# Every source is compiled twice, for storage buffers and for storage texel buffers; spirv_prepare rejects what has other
-# bits on other devices and forbids contraction; spirv-val judges the outcome. TARGET gets the arrays and a function
-# `std::span<const lodestone::kernels::Kernel> NAMESPACE::all_kernels()`. Kernels include from ROOT and from shaders/.
+# Every source is compiled three times: for storage buffers, for storage texel buffers and for arrays split over several
+# buffers (shaders/kernel.glsl); spirv_prepare rejects what has other bits on other devices and forbids contraction;
+# spirv-val judges the outcome. TARGET gets the arrays and a function `std::span<const lodestone::kernels::Kernel>
+# NAMESPACE::all_kernels()`. Kernels include from ROOT and from shaders/.
 
 find_program(LODESTONE_GLSLANG glslangValidator REQUIRED)
 find_program(LODESTONE_SPIRV_VAL spirv-val REQUIRED)
@@ -13,19 +14,23 @@ function(lodestone_embed_kernels target root namespace)
   set(names "")
   foreach(source ${sources})
     string(REGEX REPLACE "\\.comp$" "" name ${source})
-    foreach(texel 0 1)
-      if(texel)
-        string(APPEND name _texel)
-      endif()
-      lodestone_embed_kernel(${target} ${root} ${source} ${name} ${texel})
-      list(APPEND names ${name})
+    foreach(variant "" _texel _split)
+      lodestone_embed_kernel(${target} ${root} ${source} ${name}${variant})
+      list(APPEND names ${name}${variant})
     endforeach()
   endforeach()
   lodestone_index_kernels(${target} ${namespace} "${names}")
 endfunction()
 
 # One source to one array, in three steps with a file each: NAME.raw.spv, NAME.spv, NAME.cpp.
-function(lodestone_embed_kernel target root source name texel)
+function(lodestone_embed_kernel target root source name)
+  set(texel 0)
+  set(split 0)
+  if(name MATCHES "_texel$")
+    set(texel 1)
+  elseif(name MATCHES "_split$")
+    set(split 1)
+  endif()
   set(base ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name})
   get_filename_component(folder ${base} DIRECTORY)
   file(MAKE_DIRECTORY ${folder})
@@ -33,7 +38,7 @@ function(lodestone_embed_kernel target root source name texel)
   add_custom_command(
     OUTPUT ${base}.raw.spv
     COMMAND ${LODESTONE_GLSLANG} --quiet -V --target-env vulkan1.2 $<$<CONFIG:Debug>:-g> -I${root} -I${LODESTONE_SHADERS}
-            -DLODESTONE_TEXEL_BUFFERS=${texel} --depfile ${base}.d -o ${base}.raw.spv ${root}/${source}
+            -DLODESTONE_TEXEL_BUFFERS=${texel} -DLODESTONE_SPLIT_BUFFERS=${split} --depfile ${base}.d -o ${base}.raw.spv ${root}/${source}
     DEPENDS ${root}/${source}
     DEPFILE ${base}.d
     COMMENT "Compiling kernel ${name}"

@@ -15,10 +15,10 @@
 
 namespace lodestone::render {
 
-// How a pass sees a buffer. `word` and `quad` buffers (4 and 16 bytes an element) may be larger than a
-// storage buffer range: a device that has texel buffers of 2^27 elements gets them as storage texel buffers
-// (R32ui, RGBA32ui, and the kernel variant `_texel`), others as storage buffers. `structs` is always a
-// storage buffer.
+// How a pass sees a buffer. `word` and `quad` buffers (4 and 16 bytes an element) may be of any size: a device
+// that has texel buffers of 2^27 elements gets them as storage texel buffers (R32ui, RGBA32ui, and the kernel
+// variant `_texel`), others as storage buffers, and what neither can show is split over several buffers (the
+// variant `_split`). `structs` is always one storage buffer.
 enum class BindingKind : uint8_t { structs, word, quad };
 enum class Access : uint8_t { read, write, read_write };
 
@@ -84,7 +84,7 @@ struct DeviceInfo {
   std::string name, driver, api;
   uint32_t index = 0;
   uint32_t subgroup_size = 1;
-  uint64_t max_buffer_bytes = 0;   // the largest word or quad buffer
+  uint64_t max_buffer_bytes = 0;   // the largest word or quad buffer that is not split
   bool cuts_loops = false;         // an invocation may be stopped after some ten thousand loop iterations
   std::vector<std::string> lacks;  // what the device does not have, one short line each
 };

@@ -145,7 +145,7 @@ SceneTables::SceneTables(Backend& backend, const scene::Scene& scene, const scen
   triangles = make_buffer(backend, "triangles", 16, assembly.triangles);
   texel_map = make_buffer(backend, "texel_map", 16, atlas.texel_map);
   leaf_map = make_buffer(backend, "leaf_map", 4, atlas.leaf_map);
-  charts = make_buffer(backend, "charts", sizeof(layout::ChartRecord), atlas.charts);
+  charts = make_buffer(backend, "charts", 16, atlas.charts);
   upload_shading(*this, backend, scene, assembly);
 }
 

@@ -19,12 +19,12 @@ render::Settings small_settings() {
   return settings;
 }
 
-// Renders one frame on the device with the CPU beside it.
-std::vector<render::PassDifference> differences(const ReadyScene& ready, const std::string& device,
-                                                float time, const render::Settings& settings,
+// Renders one frame on `device` with the CPU beside it.
+std::vector<render::PassDifference> differences(const ReadyScene& ready,
+                                                std::unique_ptr<render::Backend> device, float time,
+                                                const render::Settings& settings,
                                                 std::optional<render::Fault> fault = {}) {
-  render::ParityBackend both(open(device, {.validate = device != "cpu"}), cpu_fallback::make_cpu_backend({}),
-                             fault);
+  render::ParityBackend both(std::move(device), cpu_fallback::make_cpu_backend({}), fault);
   render::Renderer renderer(both, ready.scene, ready.assembly, ready.atlas, settings);
   const scene::Pose pose = ready.pose(time);
   const auto bounds = scene::pose_bounds(ready.scene, pose);
@@ -32,17 +32,23 @@ std::vector<render::PassDifference> differences(const ReadyScene& ready, const s
   return both.differences();
 }
 
+std::unique_ptr<render::Backend> open_validated(const std::string& name) {
+  return open(name, {.validate = name != "cpu"});
+}
+
 class Devices : public testing::TestWithParam<std::string> {};
 
-void expect_equal(const ReadyScene& ready, const std::string& device, const render::Settings& settings) {
-  for (const float time : {0.0f, 0.6f}) {
-    const auto rows = differences(ready, device, time, settings);
-    EXPECT_GE(rows.size(), 20u);
-    for (const auto& row : rows) {
-      EXPECT_EQ(row.different, 0u) << row.pass << " " << row.buffer << " word " << row.first << std::hex
-                                   << ": " << row.device_value << " against " << row.reference_value;
-    }
+void expect_equal(const std::vector<render::PassDifference>& rows) {
+  EXPECT_GE(rows.size(), 20u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.different, 0u) << row.pass << " " << row.buffer << " word " << row.first << std::hex << ": "
+                                 << row.device_value << " against " << row.reference_value;
   }
+}
+
+void expect_equal(const ReadyScene& ready, const std::string& device, const render::Settings& settings) {
+  for (const float time : {0.0f, 0.6f})
+    expect_equal(differences(ready, open_validated(device), time, settings));
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnSpheresByOctants) {
@@ -78,12 +84,26 @@ TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
   }
 }
 
+// As with scenes whose arrays are larger than a buffer of the device can be: here most of them.
+TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
+  if (GetParam() == "cpu") GTEST_SKIP() << "the CPU has no such limit";
+  for (const auto kind : {geometry_image::AtlasKind::automatic, geometry_image::AtlasKind::exact}) {
+    const ReadyScene ready("builtin:spheres", kind);
+    for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+      render::Settings settings = small_settings();
+      settings.traversal = traversal;
+      expect_equal(differences(ready, open_split(GetParam(), 20000, {.validate = true}), 0.6f, settings));
+    }
+  }
+}
+
 TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
   if (GetParam() == "cpu") GTEST_SKIP() << "a fault of the device needs a device";
   const ReadyScene ready("builtin:tiny");
   for (const char* pass : {"blend", "rasterise", "bounds", "camera", "trace", "aov", "shade", "occlude",
                            "accumulate", "resolve"}) {
-    const auto rows = differences(ready, GetParam(), 0.3f, small_settings(), render::Fault{pass, 70});
+    const auto rows =
+        differences(ready, open_validated(GetParam()), 0.3f, small_settings(), render::Fault{pass, 70});
     std::string first;
     for (const auto& row : rows) {
       if (row.different != 0 && first.empty()) first = row.pass;

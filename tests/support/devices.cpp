@@ -33,4 +33,12 @@ std::unique_ptr<render::Backend> open(const std::string& name, const render::Bac
   return host::make_backend(name, options);
 }
 
+std::unique_ptr<render::Backend> open_split(const std::string& name, uint64_t max_buffer_bytes,
+                                            const render::BackendOptions& options) {
+  name_drivers();
+  host::HostOptions host_options;
+  host_options.max_buffer_bytes = max_buffer_bytes;
+  return host::make_backend(name, options, host_options);
+}
+
 }  // namespace lodestone::test

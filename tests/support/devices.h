@@ -16,4 +16,8 @@ std::vector<std::string> device_names();
 // Throws Error(device).
 std::unique_ptr<render::Backend> open(const std::string& name, const render::BackendOptions& options = {});
 
+// A Vulkan device that makes no buffer larger than this: longer arrays are split over several.
+std::unique_ptr<render::Backend> open_split(const std::string& name, uint64_t max_buffer_bytes,
+                                            const render::BackendOptions& options = {});
+
 }  // namespace lodestone::test

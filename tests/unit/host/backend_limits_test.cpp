@@ -39,13 +39,26 @@ TEST_F(BackendLimits, ABufferTooLargeIsNamedWithWhatItNeedsAndWhatIsPossible) {
   use_driver(Driver::lavapipe);
   const auto backend = make(TexelBuffers::never);
   const std::string message = device_error([&] {
-    backend->create({"geometry image", (uint64_t(1) << 23) + 1, 16});
+    backend->create({"materials", (uint64_t(1) << 22) + 1, 32});
   });
-  expect_contains(message, "geometry image");
-  expect_contains(message, "8388609 x 16");
+  expect_contains(message, "materials");
+  expect_contains(message, "4194305 x 32");
   expect_contains(message, "134217728");
   const std::string absurd = device_error([&] { backend->create({"absurd", ~uint64_t(0), 16}); });
   expect_contains(absurd, "absurd");
+  backend->finish();
+}
+
+TEST_F(BackendLimits, WordsAndQuadsMayBeLargerThanAnyBuffer) {
+  use_driver(Driver::lavapipe);
+  HostOptions options = test_options();
+  options.max_buffer_bytes = 3 << 20;  // in segments of 2 MiB, then
+  const auto backend = make_backend("gpu", {.validate = true}, options);
+  const uint32_t count = (5u << 20) / 4;
+  const render::Buffer values(*backend, {"values", count, 4});
+  run_pass(*backend, add_pass, {values.id()}, {count, 41u}, count);
+  run_pass(*backend, add_pass, {values.id()}, {count, 1u}, count);
+  EXPECT_EQ(download_words(*backend, values.id(), count), std::vector<uint32_t>(count, 42));
   backend->finish();
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -37,6 +38,7 @@ struct Setup {
   Driver driver;
   TexelBuffers texel_buffers;
   bool map_device_memory;
+  uint64_t max_buffer_bytes = std::numeric_limits<uint64_t>::max();  // longer arrays are split
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Setup& setup) {
@@ -46,6 +48,8 @@ inline std::ostream& operator<<(std::ostream& out, const Setup& setup) {
 inline const auto all_setups =
     testing::Values(Setup{"lavapipe_texel_mapped", Driver::lavapipe, TexelBuffers::always, true},
                     Setup{"lavapipe_plain_staged", Driver::lavapipe, TexelBuffers::never, false},
+                    Setup{"lavapipe_split_mapped", Driver::lavapipe, TexelBuffers::always, true, 16384},
+                    Setup{"swiftshader_split_staged", Driver::swiftshader, TexelBuffers::never, false, 20000},
                     Setup{"swiftshader_plain_mapped", Driver::swiftshader, TexelBuffers::never, true},
                     Setup{"swiftshader_texel_staged", Driver::swiftshader, TexelBuffers::always, false});
 
@@ -84,6 +88,7 @@ class SetupTest : public DeviceTest, public testing::WithParamInterface<Setup> {
     HostOptions options = test_options();
     options.texel_buffers = GetParam().texel_buffers;
     options.map_device_memory = GetParam().map_device_memory;
+    options.max_buffer_bytes = GetParam().max_buffer_bytes;
     return options;
   }
 
