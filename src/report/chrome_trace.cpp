@@ -43,6 +43,7 @@ Json dispatch_arguments(const Dispatch& dispatch) {
     args["node_visits"] = counters.node_visits;
     args["box_tests"] = counters.box_tests;
     args["triangle_tests"] = counters.triangle_tests;
+    if (const std::optional<double> lanes = counters.active_lanes()) args["active_lanes"] = *lanes;
   }
   return args;
 }

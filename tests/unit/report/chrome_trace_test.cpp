@@ -35,6 +35,18 @@ TEST(ChromeTrace, HasOneEventADispatchInMicroseconds) {
   EXPECT_EQ(passes[0]["args"]["clock"], "host");
 }
 
+TEST(ChromeTrace, CarriesEveryCounterThatWasCounted) {
+  RunRecord run = testing::gpu_run();
+  run.frames[0].dispatches = {testing::counted_dispatch("trace", 1000),
+                              testing::device_dispatch("shade", 110, 30)};
+  const auto passes = complete_events(run, "pass");
+  const Json expected = {{"invocations", 64},  {"clock", "device"},        {"bytes_read", 8000000},
+                         {"rays", 1000},       {"bytes_written", 1000000}, {"node_visits", 10000},
+                         {"box_tests", 20000}, {"triangle_tests", 3000},   {"active_lanes", 0.75}};
+  EXPECT_EQ(passes[1]["args"], expected);
+  EXPECT_FALSE(passes[2]["args"].contains("rays"));
+}
+
 TEST(ChromeTrace, DispatchesNeverOverlapOnTheDeviceTrack) {
   RunRecord run = testing::gpu_run();
   run.frames[0].dispatches = {testing::device_dispatch("blend", 100, 50),

@@ -22,15 +22,15 @@ std::vector<std::string> lines(const std::string& text) {
   return result;
 }
 
-TEST(PassTable, GivesTimeShareTrafficAndCostPerRay) {
+TEST(PassTable, GivesTimeShareTrafficAndEveryCountPerRay) {
   const auto rows = lines(pass_table(
       sum_by_name({testing::counted_dispatch("trace", 1000), testing::device_dispatch("shade", 0, 6)})));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_NE(rows[0].find("device ms"), std::string::npos);
   EXPECT_EQ(words(rows[1]), (std::vector<std::string>{"trace", "1", "2.000", "25.0", "%", "64", "8.00",
-                                                      "1.00", "1000", "10.00", "3.00", "0.75"}));
+                                                      "1.00", "1000", "10.00", "20.00", "3.00", "0.75"}));
   EXPECT_EQ(words(rows[2]), (std::vector<std::string>{"shade", "1", "6.000", "75.0", "%", "64", "-", "-", "-",
-                                                      "-", "-", "-"}));
+                                                      "-", "-", "-", "-"}));
 }
 
 TEST(PassTable, UsesTheClockOfTheHostWhereThereIsNoOther) {
