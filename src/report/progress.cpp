@@ -42,6 +42,7 @@ Progress::Progress(ProgressMode mode, uint32_t frames, Output output)
       frames_(frames),
       output_(std::move(output)),
       begin_(output_.seconds()),
+      last_done_(begin_),
       last_print_(begin_) {}
 
 Progress::~Progress() {
@@ -50,7 +51,9 @@ Progress::~Progress() {
 
 std::optional<double> Progress::seconds_left() const {
   if (done_ == 0) return std::nullopt;
-  return (output_.seconds() - begin_) / done_ * (frames_ - done_);
+  // From whole frames: in the middle of one, the time that it has taken counts down, not up.
+  const double a_frame = (last_done_ - begin_) / done_;
+  return std::fmax(a_frame * (frames_ - done_) - (output_.seconds() - last_done_), 0);
 }
 
 std::string Progress::line() const {
@@ -75,6 +78,7 @@ void Progress::clear() {
 
 void Progress::frame_done() {
   ++done_;
+  last_done_ = output_.seconds();
   if (mode_ == ProgressMode::json) {
     output_.write(fmt::format("{{\"frame\":{},\"frames\":{},\"seconds_left\":{:.3f}}}\n", done_, frames_,
                               seconds_left().value_or(0)));

@@ -45,7 +45,7 @@ class Progress {
   ProgressMode mode_;
   uint32_t frames_, done_ = 0;
   Output output_;
-  double begin_, last_print_;
+  double begin_, last_done_, last_print_;
   size_t drawn_ = 0;  // characters of the line that stands on the terminal
 };
 

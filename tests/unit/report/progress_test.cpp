@@ -32,6 +32,19 @@ TEST(Progress, JsonIsALineAFrameWithTheTimeLeft) {
             "{\"frame\":2,\"frames\":4,\"seconds_left\":6.000}\n");
 }
 
+TEST(Progress, TheTimeLeftCountsDownWithinAFrame) {
+  Fake fake;
+  Progress progress(ProgressMode::automatic, 3, fake.output(true));
+  fake.now += 60;
+  progress.frame_done();
+  fake.now += 20;
+  progress.tick();
+  EXPECT_NE(fake.text.find("1:40 left"), std::string::npos) << fake.text;
+  fake.now += 200;  // a frame that takes longer than all before
+  progress.tick();
+  EXPECT_NE(fake.text.find("0:00 left"), std::string::npos) << fake.text;
+}
+
 TEST(Progress, RedrawsOneLineOfATerminalAndClearsIt) {
   Fake fake;
   {
