@@ -48,8 +48,8 @@ struct Comparison {
   std::vector<std::string> failures;  // one line a threshold broken
 };
 
-// Size and channels first (their order does not matter), then non-finite values, then the measures. Metadata
-// is not compared. The same for any number of threads.
+// Size and channels first (their order does not matter), then non-finite values, then the measures. Where all
+// channels are ignored nothing passes. Metadata is not compared. The same for any number of threads.
 Comparison compare(const Image& a, const Image& b, const Thresholds& thresholds);
 
 // The difference as a picture for display: |a - b| of R G B (of the encoded values, as FLIP sees them),

@@ -110,6 +110,14 @@ TEST(Compare, MissingChannelFailsWhateverTheThresholds) {
   EXPECT_TRUE(compare(rendered(), fewer, ignoring).pass);
 }
 
+TEST(Compare, NothingPassesWhereEveryChannelIsIgnored) {
+  Thresholds ignoring;
+  ignoring.ignore = {"R", "G", "B"};
+  const Comparison result = compare(plain(2, 2, 0, 0, 0), plain(2, 2, 1, 1, 1), ignoring);
+  EXPECT_FALSE(result.pass);
+  EXPECT_EQ(result.failures.size(), 1u);
+}
+
 TEST(Compare, IdsAreNotFloatsOfTheSameName) {
   Image a = plain(2, 2, 0, 0, 0), b = a;
   a.add("id.mesh");
