@@ -11,6 +11,7 @@
 namespace lodestone::app {
 
 // Keeps at most 24 frames of the sequence, evenly spread, and writes them as one PNG with their numbers.
+// Frames of more than 512 pixels a side are shrunk by a whole number.
 class ContactSheetFile {
  public:
   // `path` empty: does nothing. Throws Error(usage) unless it names a .png.
