@@ -12,7 +12,6 @@
 #include "lodestone/base/log.h"
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/scene/assembly.h"
-#include "lodestone/scene/load.h"
 
 namespace lodestone::app {
 namespace {
@@ -29,7 +28,7 @@ int run_bake(const BakeOptions& options) {
     fail(ExitCode::usage, "-o", "`{}` does not end in .lode, as baked files do", options.output);
   check_writable(output);
   const ThreadLimit threads(options.threads);
-  const scene::Scene scene = scene::load(options.scene.scene, {options.scene.height_scale});
+  const scene::Scene scene = load_scene(options.scene);
   const scene::Assembly assembly = scene::assemble(scene);
   const geometry_image::Atlas atlas = geometry_image::build_atlas(scene, assembly, options.scene.atlas);
   geometry_image::save_atlas(output, atlas, geometry_image::atlas_hash(scene, assembly, options.scene.atlas));
@@ -45,7 +44,7 @@ void add_bake_command(CLI::App& app, std::function<int()>& run) {
   CLI::App* command = app.add_subcommand("bake", "Do the precomputation alone and keep it in a .lode file");
   auto options = std::make_shared<BakeOptions>();
   add_scene_argument(*command, options->scene);
-  command->add_option("-o,--output", options->output, "The baked file")->required()->type_name("FILE.lode");
+  add_path(*command, "-o,--output", "FILE.lode", "The baked file", options->output)->required();
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
   add_threads_option(*command, options->threads);

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CheckOptions {
-  std::string suite, out, junit, html;
+  std::string suite, device, out, junit, html;
   bool update = false;
 };
 
@@ -58,6 +58,7 @@ void check_options(const CheckOptions& options) {
     fail(ExitCode::usage, "--update",
          "golden images are not written by continuous integration (CI is set); update them by hand and look "
          "at them");
+  check_distinct({{"--junit", options.junit}, {"--html", options.html}}, {{"the suite", options.suite}});
   for (const std::string& file : {options.junit, options.html}) {
     if (!file.empty()) check_writable(file);
   }
@@ -86,6 +87,7 @@ int run_check(const CheckOptions& options,
   CheckContext context;
   context.run_program = run_program;
   context.results = options.out.empty() ? temporary.path() : fs::path(options.out);
+  context.device = options.device;
   context.update = options.update;
   // Pictures of a page `report.html` go to `report_files` beside it.
   if (!options.html.empty()) context.pictures = fs::path(options.html).replace_extension().concat("_files");
@@ -109,14 +111,16 @@ void add_check_command(CLI::App& app, std::function<int()>& run,
                        std::function<int(const std::vector<std::string>&)> run_program) {
   CLI::App* command = app.add_subcommand("check", "Render a suite and compare it with golden images");
   auto options = std::make_shared<CheckOptions>();
-  command->add_option("SUITE", options->suite, "The tests, JSON; see below")->required()->type_name("");
-  command
-      ->add_option("--out", options->out,
-                   "Leave NAME.img.exr, NAME.ref.exr and NAME.diff.png of tests that fail in this folder")
-      ->type_name("DIR");
-  command->add_option("--junit", options->junit, "Write JUnit XML")->type_name("FILE.xml");
-  command->add_option("--html", options->html, "Write a page; its pictures go to FILE_files beside it")
-      ->type_name("FILE.html");
+  add_path(*command, "SUITE", "", "The tests, JSON; see below", options->suite)->required();
+  add_value(*command, "--device", "DEVICE",
+            "Render on this device, as `lodestone render` takes it, where a test does not name one itself",
+            [&device = options->device](const std::string& text) { device = parse_name("--device", text); });
+  add_path(*command, "--out", "DIR",
+           "Leave NAME.img.exr, NAME.ref.exr and NAME.diff.png of tests that fail in this folder",
+           options->out);
+  add_path(*command, "--junit", "FILE.xml", "Write JUnit XML", options->junit);
+  add_path(*command, "--html", "FILE.html", "Write a page; its pictures go to FILE_files beside it",
+           options->html);
   command->add_flag("--update", options->update,
                     "Write golden images that are missing or differ (refused where the environment sets CI)");
   add_log_options(*command);

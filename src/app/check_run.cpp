@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +20,12 @@ namespace fs = std::filesystem;
 void remove_file(const fs::path& file) {
   std::error_code ignored;
   fs::remove(file, ignored);
+}
+
+bool names_device(const std::vector<std::string>& arguments) {
+  return std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
+    return argument == "--device" || argument.starts_with("--device=");
+  });
 }
 
 class TestRun {
@@ -59,6 +66,8 @@ class TestRun {
   bool render() {
     std::vector<std::string> arguments = {"render"};
     arguments.insert(arguments.end(), test_.arguments.begin(), test_.arguments.end());
+    if (!context_.device.empty() && !names_device(test_.arguments))
+      arguments.insert(arguments.end(), {"--device", context_.device});
     arguments.insert(arguments.end(), {"-o", rendered_.string()});
     arguments.push_back(log::level() == log::Level::verbose ? "-v" : "-q");
     const int code = context_.run_program(arguments);

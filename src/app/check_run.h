@@ -34,6 +34,7 @@ struct GoldenResult {
 
 struct CheckContext {
   std::function<int(const std::vector<std::string>&)> run_program;  // as for add_check_command
+  std::string device;  // of tests that do not name one themselves; empty: as `render` chooses
   // Where pictures are rendered to. Of a test that fails, NAME.img.exr, NAME.ref.exr (or .png, as the golden
   // image) and NAME.diff.png stay here; of others nothing does.
   std::filesystem::path results;

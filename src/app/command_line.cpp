@@ -74,6 +74,17 @@ std::string help_hint(const CLI::App& app) {
   return fmt::format("; see `lodestone {}--help`", parsed.empty() ? "" : parsed.back()->get_name() + " ");
 }
 
+// CLI11's words where they say what is wrong, plainer ones where they count.
+std::string plain_words(const CLI::ParseError& error) {
+  const std::string words = error.what();
+  const std::string option = words.substr(0, words.find(':'));
+  if (words.find("At Most 1 required but received") != std::string::npos)
+    return option + ": is given more than once";
+  if (words.find(" required ") != std::string::npos && words.ends_with("missing"))
+    return option + ": its value is missing";
+  return words;
+}
+
 // What is to be run; nothing where the parser has already answered (`--help`, `--version`).
 std::function<int()> parse(CLI::App& app, const std::vector<std::string>& arguments,
                            std::function<int()>& run) {
@@ -88,7 +99,7 @@ std::function<int()> parse(CLI::App& app, const std::vector<std::string>& argume
       app.exit(error);
       return [] { return int(ExitCode::done); };
     }
-    throw Error(ExitCode::usage, error.what() + help_hint(app));
+    throw Error(ExitCode::usage, plain_words(error) + help_hint(app));
   }
   if (!run) throw Error(ExitCode::usage, "a command is missing" + help_hint(app));
   return run;

@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
+#include <string_view>
 #include <utility>
 
+#include "lodestone/app/output_path.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
+#include "lodestone/scene/load.h"
 
 namespace lodestone::app {
 namespace {
@@ -22,17 +27,33 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
   return app.add_option_function<std::string>(names, parse, help)->type_name(type);
 }
 
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& type,
+                      const std::string& help, std::string& path) {
+  const std::string name = names.substr(names.rfind(',') + 1);
+  return add_value(app, names, type, help,
+                   [name, &path](const std::string& text) { path = parse_name(name, text); });
+}
+
 void add_scene_argument(CLI::App& app, SceneOptions& options) {
-  app.add_option("SCENE", options.scene,
-                 "A .gltf .glb .obj .ply .stl, a grey .png .exr .tif as a height map, or builtin:NAME")
-      ->required()
-      ->type_name("");
+  add_path(app, "SCENE", "",
+           "A .gltf .glb .obj .ply .stl, a grey .png .exr .tif as a height map, or builtin:NAME",
+           options.scene)
+      ->required();
   add_value(app, "--height", "SCALE",
             "Height of a height map's brightest sample, in widths of a sample (default: a quarter of its "
             "larger side)",
             [&](const std::string& text) {
               options.height_scale = float(parse_number("--height", text, 1e-6, 1e9));
             });
+}
+
+scene::Scene load_scene(const SceneOptions& options) {
+  constexpr std::string_view meshes[] = {".gltf", ".glb", ".obj", ".ply", ".stl"};
+  const std::string extension = lower_extension(options.scene);
+  const bool is_mesh = std::find(std::begin(meshes), std::end(meshes), extension) != std::end(meshes);
+  if (options.height_scale != 0 && (is_mesh || options.scene.starts_with("builtin:")))
+    fail(ExitCode::usage, "--height", "`{}` is no height map; leave the option out", options.scene);
+  return scene::load(options.scene, {options.height_scale});
 }
 
 void add_atlas_options(CLI::App& app, SceneOptions& options) {
@@ -66,7 +87,7 @@ void add_tracer_option(CLI::App& app) {
 
 void add_pose_options(CLI::App& app, PoseOptions& options) {
   add_value(app, "--clip", "NAME", "Animation clip, by name or number (default: the first)",
-            [&](const std::string& text) { options.clip = text; });
+            [&](const std::string& text) { options.clip = parse_name("--clip", text); });
   add_value(app, "--weights", "NAME=X,...",
             "Morph weights that override the animation, by target name or number",
             [&](const std::string& text) { options.weights = parse_weights("--weights", text); });
@@ -113,7 +134,7 @@ void add_camera_option(CLI::App& app, std::string& camera) {
       app, "--camera", "NAME",
       "Camera of the scene, by name or number, or auto: one that sees the whole animation (default: the "
       "first, else auto)",
-      [&](const std::string& text) { camera = text; });
+      [&](const std::string& text) { camera = parse_name("--camera", text); });
 }
 
 void add_picture_options(CLI::App& app, PictureOptions& options) {
@@ -143,10 +164,7 @@ void add_device_options(CLI::App& app, DeviceOptions& options) {
       app, "--device", "DEVICE",
       "cpu; gpu: the first Vulkan device; its INDEX or part of its NAME as `lodestone devices` lists them; "
       "auto: a GPU, else any Vulkan device, else the CPU (default)",
-      [&](const std::string& text) {
-        if (text.empty()) fail(ExitCode::usage, "--device", "is empty; run `lodestone devices` for a list");
-        options.device = text;
-      });
+      [&](const std::string& text) { options.device = parse_name("--device", text); });
   add_threads_option(app, options.backend.threads);
   app.add_flag("--validate", options.backend.validate,
                "Run the Vulkan validation layers; any message is an error");

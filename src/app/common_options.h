@@ -16,12 +16,17 @@
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/render/backend.h"
 #include "lodestone/render/renderer.h"
+#include "lodestone/scene/scene.h"
 
 namespace lodestone::app {
 
 // An option of one value, which `parse` checks and stores.
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& type,
                        const std::string& help, std::function<void(const std::string&)> parse);
+
+// An option that names a file or a folder; an empty name is refused, for it would be taken for none.
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& type,
+                      const std::string& help, std::string& path);
 
 struct SceneOptions {
   std::string scene;
@@ -30,6 +35,8 @@ struct SceneOptions {
 };
 void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height
 void add_atlas_options(CLI::App& app, SceneOptions& options);   // --atlas --resolution
+// The scene, read. Throws Error(usage) where --height is given and the scene is no height map.
+scene::Scene load_scene(const SceneOptions& options);
 
 // The tracers of this build: the names that --tracer takes.
 std::vector<std::string> tracer_names();

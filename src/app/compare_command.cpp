@@ -36,6 +36,8 @@ void write_difference(const CompareOptions& options, const image::Image& a, cons
 
 int run_compare(const CompareOptions& options) {
   const bool json_to_stdout = options.json == "-";
+  check_distinct({{"--diff", options.difference}, {"--json", options.json}},
+                 {{"A", options.a}, {"B", options.b}});
   if (!options.difference.empty()) {
     OutputPattern("--diff", options.difference);  // for its extension
     check_writable(options.difference);
@@ -78,15 +80,12 @@ void add_threshold_options(CLI::App& app, image::Thresholds& thresholds) {
 void add_compare_command(CLI::App& app, std::function<int()>& run) {
   CLI::App* command = app.add_subcommand("compare", "Say where two images differ, and whether by too much");
   auto options = std::make_shared<CompareOptions>();
-  command->add_option("A", options->a, "An image")->required()->type_name("");
-  command->add_option("B", options->b, "The image to compare it with")->required()->type_name("");
+  add_path(*command, "A", "", "An image", options->a)->required();
+  add_path(*command, "B", "", "The image to compare it with", options->b)->required();
   add_threshold_options(*command, options->thresholds);
-  command
-      ->add_option("--diff", options->difference,
-                   "Write a picture of the differences and the FLIP error (.png, .exr)")
-      ->type_name("FILE");
-  command->add_option("--json", options->json, "Write the measures as JSON; - is standard output")
-      ->type_name("FILE");
+  add_path(*command, "--diff", "FILE", "Write a picture of the differences and the FLIP error (.png, .exr)",
+           options->difference);
+  add_path(*command, "--json", "FILE", "Write the measures as JSON; - is standard output", options->json);
   add_log_options(*command);
   command->footer(
       "Without any threshold only equal images pass; with some, each of them must hold. NaN or infinity "

@@ -4,7 +4,6 @@
 #include "lodestone/app/describe.h"
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/scene/assembly.h"
-#include "lodestone/scene/load.h"
 #include "lodestone/scene/pose.h"
 
 namespace lodestone::app {
@@ -107,7 +106,7 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
 }  // namespace
 
 Json describe_scene(const SceneOptions& options) {
-  const scene::Scene scene = scene::load(options.scene, {options.height_scale});
+  const scene::Scene scene = load_scene(options);
   const scene::Assembly assembly = scene::assemble(scene);
   const geometry_image::Atlas atlas = geometry_image::cached_atlas(scene, assembly, options.atlas);
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 
 #include "lodestone/app/common_options.h"
 #include "lodestone/app/describe.h"
+#include "lodestone/app/output_path.h"
 #include "lodestone/base/error.h"
 
 namespace lodestone::app {
@@ -21,15 +20,13 @@ struct InfoOptions {
   bool json = false;
 };
 
-bool is_image(std::string extension) {
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+bool is_image(const std::string& extension) {
   constexpr const char* known[] = {".png", ".exr", ".tif", ".tiff", ".jpg", ".jpeg"};
   return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
 nlohmann::ordered_json describe(const InfoOptions& options) {
-  const std::string extension = std::filesystem::path(options.scene.scene).extension().string();
+  const std::string extension = lower_extension(options.scene.scene);
   if (extension == ".lode") return describe_baked(options.scene.scene);
   if (is_image(extension) && !options.height_map) return describe_image(options.scene.scene);
   return describe_scene(options.scene);
@@ -47,11 +44,9 @@ int run_info(const InfoOptions& options) {
 void add_info_command(CLI::App& app, std::function<int()>& run) {
   CLI::App* command = app.add_subcommand("info", "Say what a scene, a baked file or an image holds");
   auto options = std::make_shared<InfoOptions>();
-  command
-      ->add_option("FILE", options->scene.scene,
-                   "A scene, as `lodestone render` takes it, a .lode or an image")
-      ->required()
-      ->type_name("");
+  add_path(*command, "FILE", "", "A scene, as `lodestone render` takes it, a .lode or an image",
+           options->scene.scene)
+      ->required();
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--height-map", options->height_map, "Take an image for a scene: a height map");
   add_atlas_options(*command, options->scene);

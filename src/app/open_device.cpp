@@ -28,6 +28,8 @@ std::string choose_device() {
 
 OpenDevice open_device(const DeviceOptions& options) {
   const std::string name = options.device == "auto" ? choose_device() : options.device;
+  if (name == "cpu" && options.backend.validate)
+    log::warn("--validate has no effect: the CPU runs without Vulkan, and so without its validation layers");
   OpenDevice device;
   device.backend = name == "cpu" ? cpu_fallback::make_cpu_backend(options.backend)
                                  : host::make_backend(name, options.backend);

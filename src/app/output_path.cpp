@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 
@@ -16,14 +17,21 @@ namespace lodestone::app {
 namespace fs = std::filesystem;
 namespace {
 
+// Whether both name one file, there or not.
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code failed_a, failed_b;
+  const fs::path whole_a = fs::weakly_canonical(a, failed_a), whole_b = fs::weakly_canonical(b, failed_b);
+  return !failed_a && !failed_b && whole_a == whole_b;
+}
+
+}  // namespace
+
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   return extension;
 }
-
-}  // namespace
 
 OutputPattern::OutputPattern(const std::string& option, const std::string& path) : path_(path) {
   const std::string extension = lower_extension(path_);
@@ -52,15 +60,51 @@ fs::path OutputPattern::path(uint32_t frame) const {
   return numbered_path.replace_filename(name);
 }
 
+bool OutputPattern::writes(const fs::path& file, const FrameRange& frames) const {
+  if (!numbered()) return same_file(file, path_);
+  // Only the digits that stand where the marks do can be the number of the frame.
+  const std::string name = file.filename().string();
+  const size_t rest = path_.filename().string().size() - length_;
+  if (name.size() <= rest) return false;
+  uint32_t frame = 0;
+  const char* end = name.data() + first_ + (name.size() - rest);
+  const auto [stop, error] = std::from_chars(name.data() + first_, end, frame);
+  return error == std::errc() && stop == end && frame >= frames.first && frame <= frames.last &&
+         same_file(file, path(frame));
+}
+
 void check_writable(const fs::path& path) {
   std::error_code failed;
-  if (fs::is_directory(path, failed))
+  const fs::file_status status = fs::status(path, failed);
+  if (fs::is_directory(status))
     fail(ExitCode::machine, path.string(), "is a folder; give the name of a file");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    fail(ExitCode::machine, path.string(), "is a device or a pipe, not a file; give the name of a file");
   const fs::path temporary = temporary_beside(path);
   const bool made = std::ofstream(temporary, std::ios::binary).is_open();
   const std::string reason = std::strerror(errno);
   fs::remove(temporary, failed);
   if (!made) fail(ExitCode::machine, path.string(), "cannot be written ({}); choose another place", reason);
+}
+
+void check_distinct(const std::vector<NamedFile>& written, const std::vector<NamedFile>& read) {
+  for (size_t i = 0; i < written.size(); ++i) {
+    if (written[i].path.empty()) continue;
+    const auto clash = [&](const NamedFile& other) {
+      return !other.path.empty() && same_file(written[i].path, other.path);
+    };
+    for (size_t j = 0; j < i; ++j) {
+      if (clash(written[j]))
+        fail(ExitCode::usage, written[i].option,
+             "`{}` is what {} writes already; give each a file of its own", written[i].path.string(),
+             written[j].option);
+    }
+    for (const NamedFile& other : read) {
+      if (clash(other))
+        fail(ExitCode::usage, written[i].option, "`{}` is {}, which would be overwritten; name another file",
+             written[i].path.string(), other.option);
+    }
+  }
 }
 
 }  // namespace lodestone::app

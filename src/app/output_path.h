@@ -5,8 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "lodestone/app/parse_values.h"
 
 namespace lodestone::app {
+
+// The extension of a path in small letters, with its dot.
+std::string lower_extension(const std::filesystem::path& path);
 
 // A path whose file name may hold one run of `#`, which stands for the frame number, padded with zeros to the
 // length of the run (a longer number keeps all its digits).
@@ -19,6 +25,8 @@ class OutputPattern {
   bool numbered() const { return length_ > 0; }
   bool is_png() const;
   std::filesystem::path path(uint32_t frame) const;
+  // Whether one of these frames goes to this very file.
+  bool writes(const std::filesystem::path& file, const FrameRange& frames) const;
 
  private:
   std::filesystem::path path_;
@@ -26,7 +34,17 @@ class OutputPattern {
 };
 
 // Throws Error(machine) unless a file can be made at `path`; makes missing folders. Leaves a file that is
-// there as it is. Called before a long computation, so that it is not done in vain.
+// there as it is. Devices and pipes are refused: a file is written beside and renamed, which would replace
+// them. Called before a long computation, so that it is not done in vain.
 void check_writable(const std::filesystem::path& path);
+
+// A file of the command line, and the option that names it.
+struct NamedFile {
+  std::string option;
+  std::filesystem::path path;  // empty: not given
+};
+
+// Throws Error(usage) where a file is to be written twice, or is one that the command reads.
+void check_distinct(const std::vector<NamedFile>& written, const std::vector<NamedFile>& read);
 
 }  // namespace lodestone::app

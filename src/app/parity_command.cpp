@@ -129,6 +129,7 @@ int report(const ParityOptions& options, const render::ParityBackend& parity) {
 
 int run_parity(const ParityOptions& options) {
   check_frames(options.frames);
+  check_distinct({{"--log", options.log}}, {{"the scene", options.scene.scene}});
   if (!options.log.empty()) check_writable(options.log);
   const ThreadLimit threads(options.device.backend.threads);
   // Without a Vulkan device there is nothing to compare: `auto` must not become the CPU.
@@ -159,7 +160,7 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
   add_value(*command, "--fault", "PASS:BIT",
             "Flip one bit of what a pass wrote on the device: it must be found",
             [options = options.get()](const std::string& text) { options->fault = parse_fault(text); });
-  command->add_option("--log", options->log, "Write the table to a file too")->type_name("FILE");
+  add_path(*command, "--log", "FILE", "Write the table to a file too", options->log);
   add_log_options(*command);
   command->footer("Example: lodestone parity Fox.glb --device gpu --frames 0-3");
   command->callback([options, &run] { run = [options] { return run_parity(*options); }; });

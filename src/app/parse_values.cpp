@@ -32,6 +32,11 @@ bool read_count(std::string_view text, uint64_t lo, uint64_t hi, uint64_t& value
 
 }  // namespace
 
+std::string parse_name(const std::string& option, const std::string& text) {
+  if (text.empty()) fail_usage(option, "its value is empty; give a name, or leave the option out");
+  return text;
+}
+
 uint64_t parse_count(const std::string& option, const std::string& text, uint64_t lo, uint64_t hi) {
   uint64_t value = 0;
   if (!read_count(text, lo, hi, value))

@@ -16,6 +16,8 @@ inline constexpr uint64_t max_pixels = uint64_t(1) << 26;
 inline constexpr uint32_t max_side = 65536;
 inline constexpr uint32_t max_frame = 9999999;
 
+// Any text but none: an empty name would be taken for an option that was not given.
+std::string parse_name(const std::string& option, const std::string& text);
 // A whole number without sign, lo..hi.
 uint64_t parse_count(const std::string& option, const std::string& text, uint64_t lo, uint64_t hi);
 // A finite decimal number, lo..hi.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/app/prepared_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -8,10 +9,13 @@
 #include "lodestone/app/clock.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
-#include "lodestone/scene/load.h"
 
 namespace lodestone::app {
 namespace {
+
+// Of the animation, for a camera that sees all of it: an eighth of a second is less than a stride or a blow.
+constexpr double samples_per_second = 8;
+constexpr uint32_t fewest_samples = 8, most_samples = 256;
 
 // Runs one step of the preparation and notes how long it took.
 template <class Step>
@@ -38,8 +42,19 @@ scene::Pose PreparedScene::pose_at(double seconds) const {
 }
 
 scene::Bounds PreparedScene::bounds() const {
-  if (animation == scene::none) return scene::pose_bounds(scene, pose_at(0));
-  return scene::animation_bounds(scene, animation);
+  // Weights of the command line may reach further than any that the clip has.
+  const double duration = animation == scene::none ? 0 : scene.animations[animation].duration();
+  const auto steps = duration > 0 ? uint32_t(std::clamp(std::ceil(samples_per_second * duration),
+                                                        double(fewest_samples), double(most_samples)))
+                                  : 1;
+  scene::Bounds all;
+  for (uint32_t step = 0; step <= steps; ++step) {
+    const scene::Bounds moment = scene::pose_bounds(scene, pose_at(duration * step / steps));
+    if (moment.empty) continue;
+    all.include(moment.lo);
+    all.include(moment.hi);
+  }
+  return all;
 }
 
 bool PreparedScene::needs_bounds(const std::string& camera) const {
@@ -58,8 +73,7 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
          "holds a precomputation alone; give the scene that it was baked from");
   PreparedScene prepared;
   prepared.pose = pose;
-  prepared.scene =
-      timed(prepared.stages, "load", [&] { return scene::load(options.scene, {options.height_scale}); });
+  prepared.scene = timed(prepared.stages, "load", [&] { return load_scene(options); });
   prepared.animation = scene::find_animation(prepared.scene, pose.clip);
   prepared.pose_at(0);  // finds unknown weight names before the costly part
   prepared.assembly = timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene); });

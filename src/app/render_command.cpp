@@ -52,9 +52,21 @@ OutputPattern check(const RenderOptions& options) {
          options.output, options.frames.range().count());
   if (output.is_png() && !options.aovs.empty())
     fail(ExitCode::usage, "--aov", "a PNG holds the picture alone; write an .exr with -o");
+  const std::vector<NamedFile> reports = {{"--contact-sheet", options.contact_sheet},
+                                          {"--stats", options.statistics},
+                                          {"--profile", options.profile}};
+  check_distinct(reports, {{"the scene", options.scene.scene}});
+  for (const NamedFile& report : reports) {
+    if (!report.path.empty() && output.writes(report.path, options.frames.range()))
+      fail(ExitCode::usage, report.option, "`{}` is what -o writes already; give each a file of its own",
+           report.path.string());
+  }
+  if (output.writes(options.scene.scene, options.frames.range()))
+    fail(ExitCode::usage, "-o", "`{}` is the scene, which would be overwritten; name another file",
+         options.scene.scene);
   check_writable(output.path(options.frames.range().first));
-  for (const std::string& file : {options.contact_sheet, options.statistics, options.profile}) {
-    if (!file.empty()) check_writable(file);
+  for (const NamedFile& report : reports) {
+    if (!report.path.empty()) check_writable(report.path);
   }
   return output;
 }
@@ -70,6 +82,14 @@ render::Settings settings_of(const RenderOptions& options) {
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
   return settings;
+}
+
+// As --weights takes them.
+std::string weights_text(const std::map<std::string, float>& weights) {
+  std::string text;
+  for (const auto& [name, weight] : weights)
+    text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, weight);
+  return text;
 }
 
 // One run of `lodestone render`.
@@ -123,9 +143,14 @@ RenderRun::RenderRun(const RenderOptions& options)
 std::map<std::string, std::string> RenderRun::provenance(const report::Frame& frame,
                                                          const render::View& view) const {
   const render::DeviceInfo& device = device_.backend->info();
+  // As in the statistics: device times, null where a kernel was only compiled; wall times on the CPU.
   nlohmann::ordered_json times = nlohmann::ordered_json::object();
-  for (const report::PassSum& pass : report::sum_by_name(frame.dispatches))
-    times[pass.name] = pass.device_ms.value_or(pass.wall_ms);
+  for (const report::PassSum& pass : report::sum_by_name(frame.dispatches)) {
+    if (device.kind == "cpu")
+      times[pass.name] = pass.wall_ms;
+    else
+      times[pass.name] = pass.device_ms ? nlohmann::ordered_json(*pass.device_ms) : nullptr;
+  }
   std::map<std::string, std::string> text = {
       {"version", version()},
       {"commit", commit()},
@@ -140,8 +165,14 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"time", fmt::format("{}", frame.time_s)},
       {"camera", view.name},
       {"clip", prepared_.clip_name()},
-      {"pass_ms", times.dump()},  // the only one that differs between two runs
+      {"weights", weights_text(options_.pose.weights)},
+      {"wall_ms", fmt::format("{}", frame.wall_ms)},  // the only ones that differ between two runs
+      {"pass_ms", times.dump()},
   };
+  if (output_.is_png()) {
+    text["exposure"] = fmt::format("{}", options_.exposure);
+    text["view"] = options_.view == render::ViewTransform::linear ? "linear" : "filmic";
+  }
   std::map<std::string, std::string> metadata;
   for (auto& [name, value] : text) {
     if (!value.empty()) metadata["lodestone:" + name] = std::move(value);
@@ -206,14 +237,12 @@ int RenderRun::run() {
 }
 
 void add_output_options(CLI::App& app, RenderOptions& options) {
-  app.add_option(
-         "-o,--output", options.output,
-         "An .exr (linear, with AOVs) or .png (for display); #### in its name becomes the frame number")
-      ->required()
-      ->type_name("OUT");
-  app.add_option("--contact-sheet", options.contact_sheet,
-                 "Also write up to 24 frames of the sequence, as displayed, on one sheet")
-      ->type_name("FILE.png");
+  add_path(app, "-o,--output", "OUT",
+           "An .exr (linear, with AOVs) or .png (for display); #### in its name becomes the frame number",
+           options.output)
+      ->required();
+  add_path(app, "--contact-sheet", "FILE.png",
+           "Also write up to 24 frames of the sequence, as displayed, on one sheet", options.contact_sheet);
   add_value(app, "--aov", "LIST", fmt::format("More channels of an .exr: {}", join_names(aov_names())),
             [&](const std::string& text) {
               options.aovs = parse_list("--aov", text);
@@ -231,8 +260,8 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
 }
 
 void add_report_options(CLI::App& app, RenderOptions& options) {
-  app.add_option("--stats", options.statistics, "Write times and counters as JSON")->type_name("FILE.json");
-  app.add_option("--profile", options.profile, "Write a Chrome trace, for Perfetto")->type_name("FILE.json");
+  add_path(app, "--stats", "FILE.json", "Write times and counters as JSON", options.statistics);
+  add_path(app, "--profile", "FILE.json", "Write a Chrome trace, for Perfetto", options.profile);
   app.add_flag("--counters", options.device.backend.counters,
                "Count rays, visits, tests and memory traffic (slower)");
   add_value(app, "--progress", "MODE", "auto (default), off, or json: a line a frame, all on standard error",

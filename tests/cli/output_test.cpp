@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where pictures go, and what else is said.
+#include <sys/stat.h>
+
+#include "lodestone/image/image.h"
 #include "process.h"
 
 namespace lodestone::cli {
@@ -64,6 +67,35 @@ TEST_F(Output, AFolderIsNoPlaceForAPicture) {
   EXPECT_EQ(run(tiny_render(place("x.png"))).code, 5);
 }
 
+// A file is written beside and renamed, which would put a plain file in the place of /dev/null.
+TEST_F(Output, ADeviceOrPipeIsNotReplaced) {
+  ASSERT_EQ(::mkfifo(place("pipe.json").c_str(), 0600), 0);
+  for (const char* option : {"--stats", "--profile"}) {
+    const Result result = run(tiny_render(place("x.png"), {option, place("pipe.json")}));
+    EXPECT_EQ(result.code, 5);
+    EXPECT_NE(result.err.find("pipe.json: is a device or a pipe"), std::string::npos) << result.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(place("pipe.json")));
+}
+
+TEST_F(Output, AReportBesideASequenceMayLookLikeAFrame) {
+  ASSERT_EQ(
+      run(tiny_render(place("x.##.png"), {"--frames", "0-1", "--contact-sheet", place("x.02.png")})).code, 0);
+  EXPECT_EQ(files(), (Names{"x.00.png", "x.01.png", "x.02.png"}));
+}
+
+TEST_F(Output, LargeFramesAreSmallOnTheContactSheet) {
+  ASSERT_EQ(
+      run(tiny_render(place("a.##.png"), {"--frames", "0-1", "--contact-sheet", place("small.png")})).code,
+      0);
+  EXPECT_EQ(image::read(place("small.png")).width, 4u + 2 * (24 + 4));
+  const std::vector<std::string> arguments = {
+      "render", "builtin:tiny", "-o",      place("b.png"),    "--device",
+      "cpu",    "--size",       "1025x10", "--contact-sheet", place("large.png")};
+  ASSERT_EQ(run(arguments).code, 0);
+  EXPECT_EQ(image::read(place("large.png")).width, 4u + 342 + 4);  // a third of it
+}
+
 TEST_F(Output, AFullDiskBehindStandardOutputIsAnError) {
   ProcessOptions options;
   options.output = "/dev/full";
@@ -76,6 +108,12 @@ TEST_F(Output, QuietSaysNothing) {
   const Result result = run(tiny_render(place("x##.png"), {"--frames", "0-2", "-q"}));
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Output, ValidatingTheCpuIsSaidToBeNothing) {
+  const Result result = run(tiny_render(place("x.png"), {"--validate"}));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err.rfind("lodestone: warning: --validate", 0), 0u) << result.err;
 }
 
 TEST_F(Output, VerboseTellsDeviceSceneAndPasses) {

@@ -105,6 +105,21 @@ TEST_F(Render, TheCameraCanBeChosen) {
   EXPECT_FALSE(equal_beauty(render("c.exr"), render("d.exr", {"--camera", "auto"})));
 }
 
+TEST_F(Render, TheAutomaticCameraSeesAllThatWeightsMove) {
+  const image::Image image = render("x.exr", {"--camera", "auto", "--weights", "fold=9", "--aov", "id"});
+  const std::vector<uint32_t>& mesh = image.find("id.mesh")->ids;
+  uint64_t hits = 0;
+  for (uint32_t y = 0; y < image.height; ++y) {
+    for (uint32_t x = 0; x < image.width; ++x) {
+      const bool border = x == 0 || y == 0 || x + 1 == image.width || y + 1 == image.height;
+      const bool hit = mesh[size_t(y) * image.width + x] != 0xffffffffu;
+      EXPECT_FALSE(border && hit) << x << ", " << y;
+      hits += hit;
+    }
+  }
+  EXPECT_GT(hits, 10u);
+}
+
 TEST_F(Render, SaysInTheFileHowItWasMade) {
   const auto metadata = render("x.exr", {"--frames", "6", "--seed", "9", "--spp", "2"}).metadata;
   const std::map<std::string, std::string> expected = {{"scene", "builtin:tiny"},
@@ -124,10 +139,23 @@ TEST_F(Render, SaysInTheFileHowItWasMade) {
   EXPECT_GE(times["blend"].get<double>(), 0);
 }
 
+TEST_F(Render, SaysInTheFileWhichWeightsAndWhichViewItShows) {
+  auto metadata = render("x.exr", {"--weights", "fold=0.25"}).metadata;
+  EXPECT_EQ(metadata.at("lodestone:weights"), "fold=0.25");
+  EXPECT_GT(std::stod(metadata.at("lodestone:wall_ms")), 0);
+  EXPECT_EQ(metadata.count("lodestone:exposure"), 0u);  // an EXR has none
+  metadata = render("x.png", {"--exposure", "-1.5", "--view", "linear"}).metadata;
+  EXPECT_EQ(metadata.at("lodestone:exposure"), "-1.5");
+  EXPECT_EQ(metadata.at("lodestone:view"), "linear");
+  EXPECT_EQ(metadata.count("lodestone:weights"), 0u);
+}
+
 TEST_F(Render, OnlyTheTimesDifferBetweenTwoRuns) {
   auto a = render("a.exr").metadata, b = render("b.exr").metadata;
   a.erase("lodestone:pass_ms");
   b.erase("lodestone:pass_ms");
+  a.erase("lodestone:wall_ms");
+  b.erase("lodestone:wall_ms");
   EXPECT_EQ(a, b);
 }
 

@@ -127,6 +127,22 @@ TEST_F(CheckCommand, MissingGoldenImageIsAFailure) {
   EXPECT_EQ(files("out"), std::set<std::string>{"a.img.exr"});
 }
 
+TEST_F(CheckCommand, ADeviceGoesToEveryTestThatNamesNone) {
+  write_file(place("suite.json"), R"({"tests": [
+    {"name": "a", "render": ["0.5"], "golden": "a.exr"},
+    {"name": "b", "render": ["0.5", "--device", "1"], "golden": "b.exr"},
+    {"name": "c", "render": ["0.5", "--device=1"], "golden": "c.exr"}]})");
+  std::vector<bool> given;
+  const auto render = [&](const std::vector<std::string>& arguments) {
+    const auto device = std::find(arguments.begin(), arguments.end(), "cpu");
+    given.push_back(device != arguments.end() && *(device - 1) == "--device");
+    return stand_in(arguments);
+  };
+  run_command([&](CLI::App& app, std::function<int()>& run) { add_check_command(app, run, render); },
+              {"check", place("suite.json").string(), "--device", "cpu"});
+  EXPECT_EQ(given, (std::vector<bool>{true, false, false}));
+}
+
 TEST_F(CheckCommand, FailedRenderFailsItsTestAlone) {
   write_suite({{"a", "fail"}, {"b", "0.25"}});
   write_golden("a.exr", 0.5f);
