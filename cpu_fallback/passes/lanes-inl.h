@@ -72,6 +72,12 @@ template <int i, int j, int k, int l>
 inline Lanes4 permuted(Lanes4 v) {
   return {v.at[i], v.at[j], v.at[k], v.at[l]};
 }
+inline Lanes4 permuted(Lanes4 v, const int32_t* lanes) {
+  return each_lane([&](int i) { return v.at[lanes[i]]; });
+}
+inline Lanes4 where_negative(Lanes4 v, Lanes4 yes, Lanes4 no) {
+  return each_lane([&](int i) { return v.at[i] < 0 ? yes.at[i] : no.at[i]; });
+}
 inline Lanes4 zero_below(Lanes4 v, float limit) {
   return each_lane([&](int i) { return std::abs(v.at[i]) < limit ? 0.0f : v.at[i]; });
 }
@@ -132,11 +138,18 @@ HWY_ATTR inline Lanes4 lane(Lanes4 v) {
 HWY_ATTR inline float first_lane(Lanes4 v) {
   return hn::GetLane(v.v);
 }
+// The lanes of those indices.
+HWY_ATTR inline Lanes4 permuted(Lanes4 v, const int32_t* lanes) {
+  return {hn::TableLookupLanes(v.v, hn::SetTableIndices(Four(), lanes))};
+}
 // Lanes i, j, k, l.
 template <int i, int j, int k, int l>
 HWY_ATTR inline Lanes4 permuted(Lanes4 v) {
   alignas(16) static constexpr int32_t lanes[4] = {i, j, k, l};
-  return {hn::TableLookupLanes(v.v, hn::SetTableIndices(Four(), lanes))};
+  return permuted(v, lanes);
+}
+HWY_ATTR inline Lanes4 where_negative(Lanes4 v, Lanes4 yes, Lanes4 no) {
+  return {hn::IfThenElse(hn::Lt(v.v, hn::Zero(Four())), yes.v, no.v)};
 }
 HWY_ATTR inline Lanes4 zero_below(Lanes4 v, float limit) {
   return {hn::IfThenZeroElse(hn::Lt(hn::Abs(v.v), hn::Set(Four(), limit)), v.v)};

@@ -14,6 +14,7 @@
 
 #include <limits>
 
+#include "lodestone/cpu_fallback/passes/lanes-inl.h"
 #include "lodestone/cpu_fallback/passes/trace_block.h"
 #include "lodestone/cpu_fallback/passes/wide_nodes.h"
 #include "lodestone/layout/bounds.h"
@@ -24,39 +25,52 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Boxes = hn::CappedTag<float, wide_fan>;
 
+// A ray made ready, its axes in lanes.
+//
 // The distance to plane q of an axis is q * scale + offset, and no sharper than layout's slab distance to the
-// plane that q was rounded from: `slack` covers the rounding on both sides, which is below 2^-22 of the
-// largest terms.
-struct SlabLanes {
-  float scale, near_offset, far_offset;
-  uint32_t near_plane;  // 0: the low one comes first along the ray
-};
-
-HWY_ATTR inline SlabLanes slab_lanes(float base, float step, float near_origin, float far_origin,
-                                     float inverse) {
-  const float scale = step * inverse, near_offset = (base - near_origin) * inverse,
-              far_offset = (base - far_origin) * inverse;
-  const float reach = std::abs(scale) * 65536.0f;
-  return {scale, near_offset - (reach + std::abs(near_offset)) * 0x1p-21f,
-          far_offset + (reach + std::abs(far_offset)) * 0x1p-21f, inverse < 0 ? 1u : 0u};
-}
-
-// A ray made ready.
+// plane that q was rounded from: the offsets have slack for the rounding on both sides, which is below 2^-22
+// of the largest terms.
 struct SingleRay {
   layout::Ray ray;
-  layout::Slabs slabs;
+  alignas(16) float scale[4], near_offset[4], far_offset[4];
+  uint32_t near_plane[3];  // 0: the low one comes first along the ray
   layout::Shear shear;
-  SlabLanes axes[3];
-
-  SingleRay() = default;
-  HWY_ATTR HWY_FLATTEN SingleRay(const layout::Ray& r, float extent, const WideGrid& grid)
-      : ray(r), slabs(layout::make_slabs(r, extent)), shear(layout::make_shear(r)) {
-    for (int i = 0; i < 3; ++i) {
-      axes[i] =
-          slab_lanes(grid.base[i], grid.step[i], slabs.near_origin[i], slabs.far_origin[i], slabs.inverse[i]);
-    }
-  }
+  alignas(16) float turned_origin[4];  // in the order of coordinates that shear.axis gives
 };
+
+// For each shear axis: which coordinates become x, y and z (layout::sheared).
+alignas(16) inline constexpr int32_t shear_turns[3][4] = {{1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
+
+// `from`: a ray's two quads.
+HWY_ATTR inline void make_ready(const float* from, float extent, const WideGrid& grid, SingleRay& ready) {
+  const Lanes4 origin = load_lanes(from), along = load_lanes(from + 4);
+  const Lanes4 size = abs(along), height = abs(origin);
+  ready.ray = {{from[0], from[1], from[2]}, from[3], {from[4], from[5], from[6]}, from[7]};
+
+  // layout::make_slabs
+  const Lanes4 positive = all_lanes(1) / max(size, all_lanes(0x1p-40f));
+  const Lanes4 inverse = where_negative(along, all_lanes(0) - positive, positive);
+  const Lanes4 reach = max(max(all_lanes(extent), lane<0>(height)), max(lane<1>(height), lane<2>(height)));
+  const Lanes4 margin = reach * all_lanes(layout::slab_margin);
+  const Lanes4 outwards = where_negative(along, all_lanes(0) - margin, margin);
+
+  const Lanes4 base = load_lanes(&grid.base.x), slack = all_lanes(0x1p-21f);
+  const Lanes4 scale = load_lanes(&grid.step.x) * inverse, range = abs(scale) * all_lanes(65536);
+  const Lanes4 near_offset = (base - (origin + outwards)) * inverse,
+               far_offset = (base - (origin - outwards)) * inverse;
+  store_lanes(scale, ready.scale);
+  store_lanes(near_offset - (range + abs(near_offset)) * slack, ready.near_offset);
+  store_lanes(far_offset + (range + abs(far_offset)) * slack, ready.far_offset);
+  for (int i = 0; i < 3; ++i) ready.near_plane[i] = from[4 + i] < 0 ? 1 : 0;
+
+  // layout::make_shear
+  const float x = std::abs(from[4]), y = std::abs(from[5]), z = std::abs(from[6]);
+  const uint32_t axis = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
+  const Lanes4 turned = permuted(along, shear_turns[axis]), depth = lane<2>(turned);
+  const Lanes4 shear = turned / depth;
+  ready.shear = {axis, first_lane(shear), first_lane(lane<1>(shear)), first_lane(all_lanes(1) / depth)};
+  store_lanes(permuted(origin, shear_turns[axis]), ready.turned_origin);
+}
 
 // A mask of at most 16 lanes as bits.
 template <class D>
@@ -82,16 +96,16 @@ HWY_ATTR inline hn::Vec<Boxes> plane_distances(const uint16_t* HWY_RESTRICT plan
 
 // The children of a record that a ray enters.
 struct Entered {
-  HWY_ALIGN float enter[wide_fan];  // how far away each is at least
+  HWY_ALIGN float enter[wide_fan];  // how far away each is at least; infinity: not entered
   uint32_t hits;                    // their bits
 
   HWY_ATTR uint32_t nearest() const {
     if ((hits & (hits - 1)) == 0) return static_cast<uint32_t>(std::countr_zero(hits));
     const Boxes d;
-    auto least = hn::Set(d, std::numeric_limits<float>::infinity());
-    for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
-      least = hn::Min(least, hn::IfThenElse(bit_mask(d, hits >> i), hn::Load(d, enter + i), least));
-    }
+    auto least = hn::Load(d, enter);
+    for (uint32_t i = static_cast<uint32_t>(hn::Lanes(d)); i < wide_fan;
+         i += static_cast<uint32_t>(hn::Lanes(d)))
+      least = hn::Min(least, hn::Load(d, enter + i));
     least = hn::MinOfLanes(d, least);
     uint32_t at = 0;
     for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
@@ -103,19 +117,23 @@ struct Entered {
 
 HWY_ATTR inline void test_boxes(const WideNode& node, const SingleRay& ray, float tmax, Entered& entered) {
   const Boxes d;
-  const auto& [x, y, z] = ray.axes;
+  const auto& [scale_x, scale_y, scale_z, scale_w] = ray.scale;
+  const auto& [near_x, near_y, near_z, near_w] = ray.near_offset;
+  const auto& [far_x, far_y, far_z, far_w] = ray.far_offset;
+  const auto& [x, y, z] = ray.near_plane;
+  const auto nowhere = hn::Set(d, std::numeric_limits<float>::infinity());
   entered.hits = 0;
   for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
-    const auto enter_x = plane_distances(node.planes[0][x.near_plane] + i, x.scale, x.near_offset);
-    const auto enter_y = plane_distances(node.planes[1][y.near_plane] + i, y.scale, y.near_offset);
-    const auto enter_z = plane_distances(node.planes[2][z.near_plane] + i, z.scale, z.near_offset);
-    const auto exit_x = plane_distances(node.planes[0][x.near_plane ^ 1] + i, x.scale, x.far_offset);
-    const auto exit_y = plane_distances(node.planes[1][y.near_plane ^ 1] + i, y.scale, y.far_offset);
-    const auto exit_z = plane_distances(node.planes[2][z.near_plane ^ 1] + i, z.scale, z.far_offset);
+    const auto enter_x = plane_distances(node.planes[0][x] + i, scale_x, near_x);
+    const auto enter_y = plane_distances(node.planes[1][y] + i, scale_y, near_y);
+    const auto enter_z = plane_distances(node.planes[2][z] + i, scale_z, near_z);
+    const auto exit_x = plane_distances(node.planes[0][x ^ 1] + i, scale_x, far_x);
+    const auto exit_y = plane_distances(node.planes[1][y ^ 1] + i, scale_y, far_y);
+    const auto exit_z = plane_distances(node.planes[2][z ^ 1] + i, scale_z, far_z);
     const auto from = hn::Max(hn::Max(enter_x, enter_y), hn::Max(enter_z, hn::Set(d, ray.ray.tmin)));
     const auto to = hn::Min(hn::Min(exit_x, exit_y), hn::Min(exit_z, hn::Set(d, tmax)));
     const auto inside = hn::Le(from, to);
-    hn::Store(from, d, entered.enter + i);
+    hn::Store(hn::IfThenElse(inside, from, nowhere), d, entered.enter + i);
     entered.hits |= mask_bits(d, inside) << i;
   }
 }
@@ -127,8 +145,9 @@ HWY_ATTR HWY_FLATTEN HWY_NOINLINE void accept_quad(const Block& block, const Sin
   const glm::vec3 a = block.texel(texel), b = block.texel(texel + 1);
   const glm::vec3 c = block.texel(texel + stride), e = block.texel(texel + stride + 1);
   const layout::Bound bound = layout::quad_bound(a, b, c, e);
-  const float enter = layout::slab_enter(ray.slabs, bound.lo, bound.hi, ray.ray.tmin);
-  if (!(enter <= layout::slab_exit(ray.slabs, bound.lo, bound.hi, best.t))) return;
+  const layout::Slabs slabs = layout::make_slabs(ray.ray, block.extent());
+  const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.ray.tmin);
+  if (!(enter <= layout::slab_exit(slabs, bound.lo, bound.hi, best.t))) return;
   layout::intersect_quad(a, b, c, e, ray.ray, ray.shear, enter, texel, best);
 }
 
@@ -168,8 +187,8 @@ struct QuadLanes {
   alignas(64) float edges[corner_lanes], bd[corner_lanes], t[corner_lanes];
 };
 
-// layout::intersect_quad's edge functions for up to `quads_at_once` quads; returns a bit a quad: the ray
-// passes one of its triangles.
+// layout::intersect_quad's edge functions for up to `quads_at_once` quads; returns a bit a quad, four apart:
+// the ray passes one of its triangles.
 template <class Block>
 HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, const uint32_t* texels,
                                     const uint32_t* strides, QuadLanes& lanes) {
@@ -182,25 +201,24 @@ HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, co
     from[2][i] = block.texels(texels[i] + strides[i]);
     from[3][i] = from[2][i] + 4;
   }
-  const auto a = load_blocks<corner_lanes>(from[0]), b = load_blocks<corner_lanes>(from[1]);
-  const auto c = load_blocks<corner_lanes>(from[2]), e = load_blocks<corner_lanes>(from[3]);
+  // A corner a block, coordinates in the order that shears it, relative to the origin.
+  static constexpr Indices turns[3] = {in_blocks(1, 2, 0, 3), in_blocks(2, 0, 1, 3), in_blocks(0, 1, 2, 3)};
+  const auto turn = hn::SetTableIndices(d, turns[ray.shear.axis].lane);
+  const auto origin = hn::LoadDup128(d, ray.turned_origin);
+  const auto corner = [&](const float* const* blocks) HWY_ATTR {
+    return hn::Sub(hn::TableLookupLanes(load_blocks<corner_lanes>(blocks), turn), origin);
+  };
+  const auto a = corner(from[0]), b = corner(from[1]), c = corner(from[2]), e = corner(from[3]);
+  // Coordinates side by side, a corner a lane.
   const auto ab = hn::BitCast(pairs, hn::InterleaveLower(d, a, b)),
              ce = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
   const auto ab_z = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b)),
              ce_z = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
-  const auto x = hn::Sub(hn::BitCast(d, hn::InterleaveLower(pairs, ab, ce)), hn::Set(d, ray.ray.origin.x));
-  const auto y = hn::Sub(hn::BitCast(d, hn::InterleaveUpper(pairs, ab, ce)), hn::Set(d, ray.ray.origin.y));
-  const auto z =
-      hn::Sub(hn::BitCast(d, hn::InterleaveLower(pairs, ab_z, ce_z)), hn::Set(d, ray.ray.origin.z));
-  const hn::RebindToUnsigned<Corners> du;
-  const auto axis = hn::Set(du, ray.shear.axis);
-  const auto along_x = hn::RebindMask(d, hn::Eq(axis, hn::Zero(du))),
-             along_y = hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 1)));
-  const auto depth = hn::IfThenElse(along_x, x, hn::IfThenElse(along_y, y, z));
-  const auto px = hn::Sub(hn::IfThenElse(along_x, y, hn::IfThenElse(along_y, z, x)),
-                          hn::Mul(hn::Set(d, ray.shear.x), depth));
-  const auto py = hn::Sub(hn::IfThenElse(along_x, z, hn::IfThenElse(along_y, x, y)),
-                          hn::Mul(hn::Set(d, ray.shear.y), depth));
+  const auto x = hn::BitCast(d, hn::InterleaveLower(pairs, ab, ce)),
+             y = hn::BitCast(d, hn::InterleaveUpper(pairs, ab, ce)),
+             depth = hn::BitCast(d, hn::InterleaveLower(pairs, ab_z, ce_z));
+  const auto px = hn::Sub(x, hn::Mul(hn::Set(d, ray.shear.x), depth));
+  const auto py = hn::Sub(y, hn::Mul(hn::Set(d, ray.shear.y), depth));
   // Edges a b, b c, c a, d c in the block's lanes; b d in all of them.
   static constexpr Indices ends = in_blocks(1, 2, 0, 2), bs = in_blocks(1, 1, 1, 1),
                            ds = in_blocks(3, 3, 3, 3);
@@ -216,16 +234,11 @@ HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, co
   const auto zero = hn::Zero(d);
   const uint32_t plus = mask_bits(d, hn::Ge(edges, zero)), minus = mask_bits(d, hn::Le(edges, zero));
   const uint32_t bd_plus = mask_bits(d, hn::Ge(bd, zero)), bd_minus = mask_bits(d, hn::Le(bd, zero));
-  uint32_t passed = 0;
-  for (uint32_t i = 0; i < quads_at_once; ++i) {
-    const uint32_t p = plus >> (4 * i), m = minus >> (4 * i);
-    const bool first = (p & 7) == 7 || (m & 7) == 7;
-    // d c b has the edge b c the other way round: its function has the other sign.
-    const bool second = ((m & 2) != 0 && (p & 8) != 0 && (bd_plus >> (4 * i) & 1) != 0) ||
-                        ((p & 2) != 0 && (m & 8) != 0 && (bd_minus >> (4 * i) & 1) != 0);
-    if (first || second) passed |= 1u << i;
-  }
-  return passed;
+  // At the first bit of each block: a b c has its first three edges on one side; d c b has the edge b c the
+  // other way round, whose function has the other sign.
+  const uint32_t first = (plus & plus >> 1 & plus >> 2) | (minus & minus >> 1 & minus >> 2);
+  const uint32_t second = (minus >> 1 & plus >> 3 & bd_plus) | (plus >> 1 & minus >> 3 & bd_minus);
+  return (first | second) & 0x1111;
 }
 
 // Whether a ray that passes a triangle of the quad meets it beyond tmin and no farther than `best`. Most do
@@ -265,13 +278,45 @@ HWY_ATTR inline void test_quads(Block& block, const SingleRay& ray, uint32_t fir
       strides[i] = strides[0];
     }
     QuadLanes lanes;
-    uint32_t passed = pass_edges(block, ray, texels, strides, lanes) & ((1u << count) - 1);
+    uint32_t passed = pass_edges(block, ray, texels, strides, lanes) & ((1u << 4 * count) - 1);
     for (; passed != 0; passed &= passed - 1) {
-      const auto i = static_cast<uint32_t>(std::countr_zero(passed));
+      const auto i = static_cast<uint32_t>(std::countr_zero(passed)) / 4;
       if (may_hit(lanes, i, ray.ray.tmin, best.t)) accept_quad(block, ray, texels[i], strides[i], best);
     }
 #endif
   }
+}
+
+// The set bits of each byte, lowest first.
+struct BitPlaces {
+  alignas(64) uint8_t places[256][8];
+};
+constexpr BitPlaces find_bit_places() {
+  BitPlaces table{};
+  for (uint32_t byte = 0; byte < 256; ++byte) {
+    uint32_t size = 0;
+    for (uint8_t bit = 0; bit < 8; ++bit) {
+      if ((byte >> bit & 1u) != 0) table.places[byte][size++] = bit;
+    }
+  }
+  return table;
+}
+
+// The lanes of `v` whose bits are set, side by side. Compress without compilers' copying its table each time.
+template <class D>
+HWY_ATTR inline hn::Vec<D> packed(D d, hn::Vec<D> v, uint32_t bits) {
+#if HWY_MAX_BYTES / 4 > 8
+  return hn::Compress(v, bit_mask(d, bits));
+#elif HWY_TARGET == HWY_SCALAR
+  (void)d, (void)bits;
+  return v;
+#else
+  static constexpr BitPlaces table = find_bit_places();
+  const hn::RebindToSigned<D> di;
+  const hn::Rebind<uint8_t, D> du8;
+  const auto places = hn::PromoteTo(di, hn::LoadU(du8, table.places[bits & ((1u << hn::Lanes(d)) - 1)]));
+  return hn::TableLookupLanes(v, hn::IndicesFromVec(d, places));
+#endif
 }
 
 // What is still to be visited.
@@ -286,11 +331,11 @@ struct Stack {
     const Boxes d;
     const hn::RebindToUnsigned<Boxes> du;
     for (uint32_t i = 0; i < wide_fan; i += static_cast<uint32_t>(hn::Lanes(d))) {
-      const auto chosen = bit_mask(d, rest >> i);
+      const uint32_t chosen = rest >> i & ((uint32_t(1) << hn::Lanes(d)) - 1);
       // In a register, then a plain store: compressing stores take a hundred cycles on some processors.
-      hn::StoreU(hn::Compress(hn::Load(d, entered.enter + i), chosen), d, enter + size);
-      hn::StoreU(hn::Compress(hn::Iota(du, first_child + i), hn::RebindMask(du, chosen)), du, record + size);
-      size += static_cast<uint32_t>(hn::CountTrue(d, chosen));
+      hn::StoreU(packed(d, hn::Load(d, entered.enter + i), chosen), d, enter + size);
+      hn::StoreU(packed(du, hn::Iota(du, first_child + i), chosen), du, record + size);
+      size += static_cast<uint32_t>(std::popcount(chosen));
     }
   }
 
@@ -318,13 +363,13 @@ struct Flight {
 template <class Block>
 HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
   if (!block.wanted(index)) return false;
-  const layout::Ray ray = block.ray(index);
-  flight.best = {ray.tmax, 0, 0, layout::no_index};
-  if (ray.tmax < 0.0f) {
-    block.finish(index, ray, flight.best, 0);
+  const float* ray = block.ray_quads(index);
+  flight.best = {ray[7], 0, 0, layout::no_index};
+  if (ray[7] < 0.0f) {
+    block.finish(index, block.ray(index), flight.best, 0);
     return false;
   }
-  flight.ray = SingleRay(ray, block.extent(), block.grid());
+  make_ready(ray, block.extent(), block.grid(), flight.ray);
   flight.index = index;
   flight.record = flight.visits = 0;
   flight.stack.size = 0;
@@ -363,7 +408,7 @@ HWY_ATTR inline bool step(Block& block, Flight& flight) {
 
 // Each ray waits for one record after the other: so several are on their way, a step of one while the caches
 // fetch what the others need.
-constexpr uint32_t flights_at_once = 6;
+constexpr uint32_t flights_at_once = 4;
 
 template <class Block>
 HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32_t count) {

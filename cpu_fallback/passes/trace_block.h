@@ -46,6 +46,9 @@ class TraceBlock : public TraceKernel<Probe> {
     return layout::max_component(hi - lo) < extent_ * (1.0f / 64);
   }
 
+  const float* ray_quads(uint32_t index) const {
+    return reinterpret_cast<const float*>(this->rays_.words) + 8 * uint64_t(index);
+  }
   // Counted together with its hit, so that the loops above stay free of it.
   layout::Ray ray(uint32_t index) const {
     const glm::uvec4 from = this->rays_.load4(2 * uint64_t(index)),

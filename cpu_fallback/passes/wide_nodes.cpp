@@ -39,7 +39,7 @@ HWY_ATTR void quantise(const float* HWY_RESTRICT lo, const float* HWY_RESTRICT h
                        const WideGrid& grid, WideNode* HWY_RESTRICT records, uint32_t begin, uint32_t end) {
   const Planes d;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(d));
-  const glm::vec3 per_step = glm::vec3(1, 1, 1) / grid.step;
+  const glm::vec3 per_step = glm::vec3(1, 1, 1) / glm::vec3(grid.step);
   const auto empty = hn::Set(d, layout::infinity_bits_as_max);
   for (uint32_t r = begin; r < end; ++r) {
     WideNode& record = records[r];

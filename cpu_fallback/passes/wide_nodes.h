@@ -28,11 +28,11 @@ static_assert(sizeof(WideNode) == render::wide_node_bytes);
 
 // A plane q stands for base + q * step.
 struct WideGrid {
-  glm::vec3 base, step;
+  glm::vec4 base, step{0, 0, 0, 0};  // w: 0
 
   // `root`: bound of the whole scene. A flat axis gets a thousandth of the largest one, so that an empty
   // child, whose low plane is 65535 and whose high plane is 0, is empty along every axis.
-  WideGrid(const glm::vec3& lo, const glm::vec3& hi) : base(lo) {
+  WideGrid(const glm::vec3& lo, const glm::vec3& hi) : base(lo, 0) {
     const glm::vec3 size = hi - lo;
     const float largest = std::max(layout::max_component(size), 1e-30f);
     for (int axis = 0; axis < 3; ++axis) {
