@@ -24,7 +24,7 @@ struct BakeOptions {
 
 int run_bake(const BakeOptions& options) {
   const std::filesystem::path output = options.output;
-  if (output.extension() != ".lode")
+  if (lower_extension(output) != ".lode")
     fail(ExitCode::usage, "-o", "`{}` does not end in .lode, as baked files do", options.output);
   check_writable(output);
   const ThreadLimit threads(options.threads);

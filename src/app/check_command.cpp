@@ -79,6 +79,16 @@ void write_reports(const CheckOptions& options, const GoldenSuite& suite,
     write_file(options.html, html_report(suite.name, results, pictures.filename().string()));
 }
 
+// A difference counts most; where there is none, what kept the first broken test from running.
+ExitCode exit_code(const std::vector<GoldenResult>& results) {
+  ExitCode code = ExitCode::done;
+  for (const GoldenResult& result : results) {
+    if (result.outcome == Outcome::failed) return ExitCode::different;
+    if (code == ExitCode::done) code = result.code;
+  }
+  return code;
+}
+
 int run_check(const CheckOptions& options,
               const std::function<int(const std::vector<std::string>&)>& run_program) {
   check_options(options);
@@ -102,7 +112,7 @@ int run_check(const CheckOptions& options,
   const auto failed = std::count_if(results.begin(), results.end(),
                                     [](const GoldenResult& result) { return !result.good(); });
   if (log::level() != log::Level::quiet) fmt::print("{} tests, {} failed\n", results.size(), failed);
-  return int(failed == 0 ? ExitCode::done : ExitCode::different);
+  return int(exit_code(results));
 }
 
 }  // namespace
@@ -132,8 +142,9 @@ void add_check_command(CLI::App& app, std::function<int()>& run,
       "without -o ({suite} in them is the suite's folder), a golden image relative to the suite, and the\n"
       "thresholds of `lodestone compare`: max mean rmse flip_mean flip_p99 pixel pixel_share ignore. "
       "Without\n"
-      "thresholds only equal images pass. A missing golden image is a failure. Exit code 1 where a test "
-      "failed.\n"
+      "thresholds only equal images pass. A missing golden image is a failure. Exit code 1 where a picture "
+      "is\n"
+      "another one, else that of the first render that failed.\n"
       "Example: lodestone check tests/golden/suite.json --out failures --junit results.xml");
   command->callback([options, &run, run_program = std::move(run_program)] {
     run = [options, run_program] { return run_check(*options, run_program); };

@@ -46,7 +46,7 @@ class TestRun {
       if (render()) judge();
     } catch (const Error& error) {
       if (error.code() == ExitCode::machine) throw;
-      give(Outcome::broken, error.what());
+      give(Outcome::broken, error.code(), error.what());
     }
     if (result_.good()) remove_file(rendered_);
     result_.seconds = (now_ms() - start) / 1000;
@@ -58,8 +58,9 @@ class TestRun {
     return context_.results / fmt::format("{}.{}{}", test_.name, role, extension);
   }
 
-  void give(Outcome outcome, std::string problem) {
+  void give(Outcome outcome, ExitCode code, std::string problem) {
     result_.outcome = outcome;
+    result_.code = code;
     result_.problems.push_back(std::move(problem));
   }
 
@@ -73,9 +74,10 @@ class TestRun {
     const int code = context_.run_program(arguments);
     if (code == int(ExitCode::done)) return true;
     if (code == int(ExitCode::interrupted))
-      give(Outcome::interrupted, "interrupted");
+      give(Outcome::interrupted, ExitCode::interrupted, "interrupted");
     else
-      give(Outcome::broken, fmt::format("the render ended with exit code {}; standard error says why", code));
+      give(Outcome::broken, ExitCode(code),
+           fmt::format("the render ended with exit code {}; standard error says why", code));
     return false;
   }
 
@@ -85,7 +87,7 @@ class TestRun {
     const bool exists = fs::exists(test_.golden, ignored);
     if (context_.update) return update(rendered, exists);
     if (!exists) {
-      give(Outcome::failed,
+      give(Outcome::failed, ExitCode::different,
            fmt::format("{}: there is no golden image; look at the picture that was rendered, then "
                        "make it one with --update",
                        test_.golden.string()));
@@ -95,7 +97,8 @@ class TestRun {
     const image::Image golden = image::read(test_.golden);
     result_.comparison = image::compare(rendered, golden, test_.thresholds);
     if (result_.comparison->pass) return;
-    for (const std::string& failure : result_.comparison->failures) give(Outcome::failed, failure);
+    for (const std::string& failure : result_.comparison->failures)
+      give(Outcome::failed, ExitCode::different, failure);
     keep_evidence(rendered, golden);
   }
 

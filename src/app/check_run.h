@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lodestone/app/check_suite.h"
+#include "lodestone/base/error.h"
 #include "lodestone/image/compare.h"
 
 namespace lodestone::app {
@@ -25,6 +26,7 @@ struct GoldenResult {
   std::string name;
   Outcome outcome = Outcome::passed;
   double seconds = 0;                 // of the render and the comparison
+  ExitCode code = ExitCode::done;     // of a program that had run this test alone
   std::vector<std::string> problems;  // a line each; empty unless failed or broken
   std::optional<image::Comparison> comparison;
   std::vector<std::string> pictures;  // file names in CheckContext::pictures: rendered, golden, difference

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <functional>
 #include <new>
+#include <numeric>
 #include <system_error>
 
 #include "lodestone/app/bake_command.h"
@@ -74,10 +75,49 @@ std::string help_hint(const CLI::App& app) {
   return fmt::format("; see `lodestone {}--help`", parsed.empty() ? "" : parsed.back()->get_name() + " ");
 }
 
+// How many letters must change, come or go to make one word of the other.
+size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t(0));
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+// What is wrong with the first option that the command does not have; empty where it has all of them.
+std::string unknown_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const auto parsed = app.get_subcommands();
+  const CLI::App& command = parsed.empty() ? app : *parsed.back();
+  for (const std::string& argument : arguments) {
+    const std::string name = argument.substr(0, argument.find('='));
+    if (!name.starts_with("--") || command.get_option_no_throw(name) != nullptr) continue;
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& known : option->get_lnames()) {
+        if (edit_distance(name, "--" + known) <= std::max(known.size() / 3, size_t(1)))
+          return fmt::format("{}: there is no such option; did you mean --{}?", name, known);
+      }
+    }
+    return name + ": there is no such option";
+  }
+  return "";
+}
+
 // CLI11's words where they say what is wrong, plainer ones where they count.
-std::string plain_words(const CLI::ParseError& error) {
+std::string plain_words(const CLI::ParseError& error, const CLI::App& app,
+                        const std::vector<std::string>& arguments) {
   const std::string words = error.what();
   const std::string option = words.substr(0, words.find(':'));
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    const std::string unknown = unknown_option(app, arguments);
+    if (!unknown.empty()) return unknown;
+  }
   if (words.find("At Most 1 required but received") != std::string::npos)
     return option + ": is given more than once";
   if (words.find(" required ") != std::string::npos && words.ends_with("missing"))
@@ -99,7 +139,7 @@ std::function<int()> parse(CLI::App& app, const std::vector<std::string>& argume
       app.exit(error);
       return [] { return int(ExitCode::done); };
     }
-    throw Error(ExitCode::usage, plain_words(error) + help_hint(app));
+    throw Error(ExitCode::usage, plain_words(error, app, arguments) + help_hint(app));
   }
   if (!run) throw Error(ExitCode::usage, "a command is missing" + help_hint(app));
   return run;

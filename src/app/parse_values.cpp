@@ -33,7 +33,7 @@ bool read_count(std::string_view text, uint64_t lo, uint64_t hi, uint64_t& value
 }  // namespace
 
 std::string parse_name(const std::string& option, const std::string& text) {
-  if (text.empty()) fail_usage(option, "its value is empty; give a name, or leave the option out");
+  if (text.empty()) fail_usage(option, "is empty; give a name");
   return text;
 }
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "lodestone/app/clock.h"
+#include "lodestone/app/output_path.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 
@@ -68,7 +68,7 @@ std::string PreparedScene::clip_name() const {
 }
 
 PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose) {
-  if (std::filesystem::path(options.scene).extension() == ".lode")
+  if (lower_extension(options.scene) == ".lode")
     fail(ExitCode::usage, options.scene,
          "holds a precomputation alone; give the scene that it was baked from");
   PreparedScene prepared;

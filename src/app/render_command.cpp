@@ -198,6 +198,9 @@ bool RenderRun::render_frame(uint32_t frame) {
   image::Image image = std::move(output_.is_png() ? result->display : result->linear);
   image.metadata = provenance(measured, view);
   writer_.push(output_.path(frame), std::move(image));
+  // Nobody reads them, and a long sequence has many.
+  if (options_.statistics.empty() && options_.profile.empty() && log::level() != log::Level::verbose)
+    measured.dispatches = {};
   measured_.frames.push_back(std::move(measured));
   progress_.frame_done();
   return true;

@@ -42,7 +42,8 @@ std::vector<std::string> with(std::vector<std::string> more) {
 const Wrong wrong_values[] = {
     {"NoCommand", {}, {"command"}},
     {"UnknownCommand", {"rendr"}, {"rendr", "render", "devices"}},
-    {"UnknownOption", with({"--sice", "8x8"}), {"--sice", "render --help"}},
+    {"UnknownOption", with({"--sice", "8x8"}), {"--sice", "did you mean --size?", "render --help"}},
+    {"OptionUnlikeAnyOther", with({"--raytrace"}), {"--raytrace: there is no such option; see"}},
     {"NoScene", {"render", "-o", "x.png"}, {"SCENE"}},
     {"NoOutput", {"render", "builtin:tiny"}, {"--output"}},
     {"UnknownBuiltin", {"render", "builtin:moon", "-o", "/tmp/x.png", "--device", "cpu"}, {"moon", "tiny"}},

@@ -143,12 +143,18 @@ TEST_F(CheckCommand, ADeviceGoesToEveryTestThatNamesNone) {
   EXPECT_EQ(given, (std::vector<bool>{true, false, false}));
 }
 
+TEST_F(CheckCommand, ADifferenceCountsMoreThanAFailedRender) {
+  write_suite({{"a", "fail"}, {"b", "0.25"}});
+  write_golden("b.exr", 0.5f);
+  EXPECT_EQ(check().code, 1);
+}
+
 TEST_F(CheckCommand, FailedRenderFailsItsTestAlone) {
   write_suite({{"a", "fail"}, {"b", "0.25"}});
   write_golden("a.exr", 0.5f);
   write_golden("b.exr", 0.25f);
   const CommandResult result = check();
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 4);
   EXPECT_NE(result.output.find("exit code 4"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("2 tests, 1 failed"), std::string::npos) << result.output;
 }
@@ -156,7 +162,7 @@ TEST_F(CheckCommand, FailedRenderFailsItsTestAlone) {
 TEST_F(CheckCommand, UnreadableGoldenImageFailsItsTest) {
   write_suite({{"a", "0.5"}});
   write_file(place("golden/a.exr"), std::string("no image"));
-  EXPECT_EQ(check().code, 1);
+  EXPECT_EQ(check().code, 3);
 }
 
 TEST_F(CheckCommand, InterruptionEndsTheSuite) {
