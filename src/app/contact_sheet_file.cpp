@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lodestone/app/output_path.h"
 #include "lodestone/base/error.h"
 
 namespace lodestone::app {
@@ -43,7 +44,7 @@ image::Image shrunk(const image::Image& picture, uint32_t factor) {
 
 ContactSheetFile::ContactSheetFile(std::string path, uint32_t frames)
     : path_(std::move(path)), frames_(frames) {
-  if (!path_.empty() && !path_.ends_with(".png"))
+  if (!path_.empty() && lower_extension(path_) != ".png")
     fail(ExitCode::usage, "--contact-sheet", "`{}` is no PNG; name a .png", path_);
 }
 

@@ -252,9 +252,9 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
               for (const std::string& name : options.aovs) parse_choice("--aov", name, aov_names());
             });
   add_value(
-      app, "--exposure", "EV", "Stops brighter or darker, of a .png only (default: 0)",
+      app, "--exposure", "EV", "Stops brighter or darker, of a .png and a contact sheet (default: 0)",
       [&](const std::string& text) { options.exposure = float(parse_number("--exposure", text, -64, 64)); });
-  add_value(app, "--view", "NAME", "Tone curve of a .png: filmic (default) or linear",
+  add_value(app, "--view", "NAME", "Tone curve of a .png and a contact sheet: filmic (default) or linear",
             [&](const std::string& text) {
               options.view = parse_choice("--view", text, {"filmic", "linear"}) == "linear"
                                  ? render::ViewTransform::linear
