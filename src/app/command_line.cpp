@@ -43,7 +43,12 @@ class LogLevelGuard {
   log::Level before_;
 };
 
-int report(ExitCode code, const std::string& message) {
+// One line, whatever the names of files and of what they hold: control characters, which could also move a
+// terminal's cursor, become `?`.
+int report(ExitCode code, std::string message) {
+  for (char& c : message) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  }
   fmt::print(stderr, "lodestone: error: {}\n", message);
   return int(code);
 }

@@ -137,6 +137,11 @@ TEST_F(BadInput, AMissingSceneIsNamed) {
                    {place("none.obj") + ": no such file"});
 }
 
+TEST_F(BadInput, ANameWithControlCharactersMakesOneLineAllTheSame) {
+  expect_one_error(run({"render", place("a\nb\x1b[2J.obj"), "-o", place("x.png"), "--device", "cpu"}), 3,
+                   {place("a?b?[2J.obj") + ": no such file"});
+}
+
 TEST_F(BadInput, ATruncatedSceneIsNamed) {
   write_text(place("cut.glb"), "glTF\2\0\0");
   expect_one_error(run({"info", place("cut.glb")}), 3, {place("cut.glb") + ": "});
