@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The cartoon bust: its parts, materials, lights and camera.
+#include <array>
+#include <string>
+
 #include "lodestone/base/parallel.h"
 #include "lodestone/scene/builtin/head_clip.h"
 #include "lodestone/scene/builtin/head_parts.h"
@@ -25,45 +28,52 @@ namespace {
 // Nothing of the head but the shirt stays behind when it nods.
 constexpr glm::vec3 nod_pivot(0, -1.05f, -0.12f);
 
-void light_portrait(Scene& scene) {
+// Lights have no size. Three close together stand for a lamp that has one: its shadows have soft borders.
+void add_soft_key(Scene& scene) {
+  constexpr glm::vec3 middle(2.3f, 2.5f, 5.4f);
+  constexpr std::array<glm::vec3, 3> corners = {
+      {{-0.24f, 0.12f, 0.09f}, {0.19f, 0.19f, -0.12f}, {0.05f, -0.31f, 0.03f}}};
   Light key;
-  key.name = "Key";
   key.kind = Light::Kind::spot;
   key.color = {1, 0.86f, 0.70f};
-  key.intensity = 115;
+  key.intensity = 88.0f / corners.size();
   key.inner_cone = 0.35f;
   key.outer_cone = 0.55f;
-  add_light(scene, key, {2.6f, 3.0f, 5.0f}, {0, -0.2f, 0});
-  Light rim;
-  rim.name = "Rim";
-  rim.kind = Light::Kind::point;
-  rim.color = {0.50f, 0.72f, 1};
-  rim.intensity = 60;
-  add_light(scene, rim, {-2.6f, 2.4f, -3.6f}, {0, 0, 0});
+  for (size_t k = 0; k < corners.size(); ++k) {
+    key.name = "Key" + std::to_string(k + 1);
+    add_light(scene, key, middle + corners[k], {0, -0.2f, 0});
+  }
+}
+
+void light_portrait(Scene& scene) {
+  add_soft_key(scene);
+  // Beside the camera, which cannot see its shadows. No light from behind: what it grazed would be white
+  // slivers, for hair as smooth as this has no fuzz to catch it.
   Light fill;
   fill.name = "Fill";
   fill.kind = Light::Kind::point;
-  fill.color = {0.75f, 0.80f, 1};
-  fill.intensity = 20;
-  add_light(scene, fill, {-3.5f, 0.3f, 4}, {0, 0, 0});
-  scene.sky = Sky{{0.36f, 0.46f, 0.60f}, {0.30f, 0.32f, 0.36f}, {0.16f, 0.12f, 0.10f}};
+  fill.color = {1, 0.92f, 0.85f};
+  fill.intensity = 34;
+  add_light(scene, fill, {1.7f, 0.2f, 6.9f}, {0, 0, 0});
+  scene.sky = Sky{{0.38f, 0.48f, 0.62f}, {0.32f, 0.34f, 0.38f}, {0.16f, 0.12f, 0.10f}};
 }
 
 }  // namespace
 
 Scene make_head() {
   Scene scene;
-  const uint32_t skin = add_material(scene, "skin", glm::vec3(1), 0.45f);
-  const uint32_t ear = add_material(scene, "ear", glm::vec3(1), 0.45f);
-  const uint32_t eye = add_material(scene, "eye", glm::vec3(1), 0.10f);
+  const uint32_t skin = add_material(scene, "skin", glm::vec3(1), 0.50f);
+  const uint32_t ear = add_material(scene, "ear", glm::vec3(1), 0.50f);
+  const uint32_t eye = add_material(scene, "eye", glm::vec3(1), 0.18f);
   const uint32_t brow = add_material(scene, "brow", {0.13f, 0.040f, 0.015f}, 0.7f);
-  const uint32_t tooth = add_material(scene, "tooth", {0.90f, 0.87f, 0.80f}, 0.18f);
+  const uint32_t tooth = add_material(scene, "tooth", glm::vec3(1), 0.25f);
   const uint32_t tongue = add_material(scene, "tongue", {0.70f, 0.20f, 0.20f}, 0.35f);
-  const uint32_t hair = add_material(scene, "hair", {0.50f, 0.135f, 0.030f}, 0.42f);
+  const uint32_t hair = add_material(scene, "hair", {0.50f, 0.135f, 0.030f}, 0.50f);
   const uint32_t wool = add_material(scene, "wool", {0.03f, 0.20f, 0.24f}, 0.9f);
-  scene.images = {iris_image(), freckle_image()};
+  scene.images = {iris_image(), freckle_image(), mouth_shade()};
   scene.materials[eye].base_color_texture.image = 0;
   scene.materials[skin].base_color_texture.image = 1;
+  scene.materials[tooth].occlusion_texture.image = scene.materials[tongue].occlusion_texture.image = 2;
 
   Node bust;
   bust.name = "bust";

@@ -11,7 +11,7 @@ namespace {
 constexpr float pi = 3.14159265f;
 constexpr float iris_angle = 0.56f;  // from the gaze to the rim of the iris
 constexpr float look_angle = 0.45f;
-constexpr int cells = 20;
+constexpr int cells = 18;
 
 // Turned so that +Z becomes the gaze.
 glm::vec3 gaze(glm::vec3 p, const Expression& e) {

@@ -80,8 +80,9 @@ void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm
       const float spread = 0.17f * (1 - std::pow(1 - d, 4.0f)) * (1 - 0.35f * d);
       // First both lips step up, so that one cannot look in between them; then they part.
       glm::vec3 p = meet + (1 - d) * glm::vec3(0, 0.010f * roundness(across), -0.02f);
-      p.x *= 1 - 0.25f * d * d;
-      p.y += up * spread * std::sqrt(roundness(across));
+      // Wider behind the corners, so that one sees teeth there and not the wall.
+      p.x *= 1 + 0.20f * bump((d - 0.28f) / 0.30f) - 0.25f * d * d;
+      p.y += up * spread * std::pow(roundness(across), 0.35f);
       p.z = glm::mix(p.z, 0.10f, d);
       out[ring_vertex(ring, column, skin_rows + lip_rows + k)] = turn_jaw(p, glm::mix(share, 0.5f, d * d), e);
     }
@@ -94,9 +95,12 @@ void HeadSkin::color_mouth(const Ring& ring, std::vector<glm::vec4>& out) const 
   for (uint32_t column = 0; column < around; ++column)
     for (uint32_t row = 1; row < ring.rows; ++row) {
       const Aim aim = aims_[ring.border[column]];
+      const float across = across_mouth(ring_seam(ring, column).turn);
       const float s = std::min(float(row) / float(skin_rows), 1.0f);
       const glm::vec3 skin = skin_color(aim + s * (Aim{0.8f * aim.azimuth, -0.475f} - aim));
-      const float red = glm::smoothstep(float(skin_rows) - 2, float(skin_rows) + 1.5f, float(row));
+      // Pales in the corners, where the lips are pinched.
+      const float red = glm::smoothstep(float(skin_rows) - 2, float(skin_rows) + 1.5f, float(row)) *
+                        (0.3f + 0.7f * glm::smoothstep(0.0f, 0.35f, roundness(across)));
       glm::vec3 color = glm::mix(skin, lip, red);
       const float deep = (float(row) - float(skin_rows + lip_rows)) / cavity_rows;
       color = glm::mix(color, flesh, glm::smoothstep(-0.15f, 0.15f, deep));

@@ -22,6 +22,8 @@ Image iris_image();
 // mirrored.
 Image freckle_image();
 glm::vec2 freckle_coordinates(Aim aim);
+// How much of the sky what is in the mouth sees: one texel.
+Image mouth_shade();
 Mesh head_ears(uint32_t material);
 Mesh head_brows(uint32_t material);
 Mesh head_teeth(uint32_t material);
