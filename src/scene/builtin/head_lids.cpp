@@ -81,14 +81,18 @@ void HeadSkin::pose_eye(const Ring& ring, float side, const Expression& e,
 void HeadSkin::color_eye(const Ring& ring, float side, std::vector<glm::vec4>& out) const {
   const glm::vec3 lash(0.05f, 0.018f, 0.012f), wet(0.62f, 0.25f, 0.20f);
   for (uint32_t column = 0; column < ring.border.size(); ++column) {
-    const bool upper = ring_seam(ring, column).upper;
+    const Seam seam = ring_seam(ring, column);
+    // The line of the lashes thins out around the corners of the eye, the same on both lids where they meet.
+    const float corner = std::min(seam.turn, 1 - seam.turn);
+    const float line = seam.upper ? glm::mix(0.55f, 1.0f, glm::smoothstep(0.0f, 0.12f, corner))
+                                  : 0.55f * (1 - glm::smoothstep(0.0f, 0.16f, corner));
     for (uint32_t row = 1; row < ring.rows; ++row) {
       const Aim edge{side * 0.40f, 0.15f};
       const Aim aim = aims_[ring.border[column]];
       const float s = float(row) / float(skin_rows - 1);
       glm::vec3 color = skin_color(aim + 0.5f * std::min(s, 1.0f) * (edge - aim));
       if (row + 1 >= skin_rows) color = wet;
-      if (upper) color = glm::mix(color, lash, glm::clamp(float(row + 4) - float(skin_rows), 0.0f, 2.0f) / 2);
+      color = glm::mix(color, lash, line * glm::clamp(float(row + 4) - float(skin_rows), 0.0f, 2.0f) / 2);
       out[ring_vertex(ring, column, row)] = glm::vec4(color, 1);
     }
   }
