@@ -86,7 +86,7 @@ Mesh head_brows(uint32_t material) {
         const Aim aim = section.middle + Aim{0, section.width * std::cos(angle)};
         // Combed upwards and outwards.
         const float strand =
-            1 + 0.10f * std::sin(60 * (side > 0 ? along : 1 - along) + 2.5f * std::cos(angle));
+            1 + 0.05f * std::sin(60 * (side > 0 ? along : 1 - along) + 2.5f * std::cos(angle));
         const float lift = section.height * std::sin(angle) * strand + 0.004f;
         out.push_back(snap(skin_point({side * aim.azimuth, aim.elevation}, e, lift)));
       }

@@ -13,7 +13,6 @@ using glm::vec3;
 
 constexpr float pi = 3.14159265f;
 constexpr glm::ivec3 cap_cells(30, 18, 30);
-constexpr uint32_t lock_columns = 12, lock_rows = 18;
 
 // Elevation of the hairline by azimuth: forehead, temple, sideburn, behind the ear, nape.
 float hairline(float azimuth) {
@@ -75,6 +74,7 @@ struct Place {
 struct Lock {
   Place path[4];
   float width, thickness;
+  uint32_t columns, rows;  // samples around and along
 };
 
 constexpr vec3 scalp_centre(0, 0.27f, -0.10f);
@@ -111,19 +111,24 @@ vec3 lock_point(const Lock& lock, float t, float angle) {
 // back.
 std::vector<Lock> make_locks() {
   std::vector<Lock> locks;
+  // What makes the outline of the quiff is the finest.
+  uint32_t columns = 16, rows = 26;
   const auto add = [&](Place a, Place b, Place c, Place d, float width, float thickness) {
-    locks.push_back({{a, b, c, d}, width, thickness});
+    locks.push_back({{a, b, c, d}, width, thickness, columns, rows});
   };
   for (int k = 0; k < 7; ++k) {
     const float x = float(k), side = -38 + 11.5f * x, full = 1 - 0.09f * x;
     add({22 + 0.6f * x, side, -0.03f}, {26, side, 0.33f * full}, {60 - 2 * x, side + 12, 0.68f * full},
         {78 - 4 * x, side + 46 - 2 * x, 0.36f * full}, 0.150f - 0.006f * x, 0.085f - 0.004f * x);
   }
+  add({25, 3, 0.0f}, {30, 2, 0.34f}, {18, -2, 0.32f}, {10, -8, 0.12f}, 0.052f, 0.034f);  // a curl
+  columns = 12, rows = 18;
   for (int k = 0; k < 6; ++k) {
     const float x = float(k), side = -44 + 14 * x;
     add({52, side, 0.04f}, {62, side + 2, 0.38f - 0.03f * x}, {92, side + 14, 0.34f - 0.03f * x},
         {120, side + 28, 0.06f}, 0.165f, 0.080f);
   }
+  columns = 10, rows = 14;
   for (int k = 0; k < 6; ++k) {
     const float side = -50 + 19 * float(k);
     add({94, side, 0.04f}, {112, side, 0.25f}, {140, side + 5, 0.22f}, {172, side + 8, 0.04f}, 0.175f,
@@ -139,8 +144,7 @@ std::vector<Lock> make_locks() {
     add({172, side, 0.04f}, {186, side, 0.16f}, {206, side * 0.85f, 0.15f}, {230, side * 0.65f, 0.0f}, 0.155f,
         0.055f);
   }
-  // Two that will not lie down.
-  add({25, 3, 0.0f}, {30, 2, 0.34f}, {18, -2, 0.32f}, {10, -8, 0.12f}, 0.052f, 0.034f);
+  // One that will not lie down.
   add({128, -6, 0.0f}, {132, -8, 0.22f}, {142, -2, 0.32f}, {156, 8, 0.30f}, 0.075f, 0.045f);
   return locks;
 }
@@ -155,11 +159,11 @@ Mesh head_hair(uint32_t material) {
   for (const BoxLattice::Face face : BoxLattice::faces) add_grid(mesh, cap.chart(face));
   for (const glm::ivec3& point : cap.points()) positions.push_back(snap(cap_point(point)));
   for (const Lock& lock : make_locks()) {
-    const ZippedTube tube(lock_columns, lock_rows, uint32_t(positions.size()));
+    const ZippedTube tube(lock.columns, lock.rows, uint32_t(positions.size()));
     add_grid(mesh, tube.chart());
     for (const ZippedTube::Sample& sample : tube.samples())
-      positions.push_back(snap(lock_point(lock, float(sample.row) / (lock_rows - 1),
-                                          2 * pi * float(sample.column) / lock_columns)));
+      positions.push_back(snap(lock_point(lock, float(sample.row) / float(lock.rows - 1),
+                                          2 * pi * float(sample.column) / float(lock.columns))));
   }
   add_part(mesh, 0, material);
   sculpt(mesh, [&](const Expression&) { return positions; });
