@@ -22,16 +22,19 @@ uint64_t slot_stride(const Device& device) {
 render::Counters read_counters(const std::byte* slot) {
   std::array<uint32_t, layout::counter_words> words{};
   std::memcpy(words.data(), slot, counter_bytes);
+  const auto value = [&](uint32_t counter) {
+    return uint64_t(words[layout::counter_count + counter]) << 32 | words[counter];
+  };
   constexpr uint64_t word = sizeof(uint32_t);
   render::Counters counters;
-  counters.bytes_read = words[layout::counter_bytes_read] * word;
-  counters.bytes_written = words[layout::counter_bytes_written] * word;
-  counters.rays = words[layout::counter_rays];
-  counters.node_visits = words[layout::counter_node_visits];
-  counters.box_tests = words[layout::counter_box_tests];
-  counters.triangle_tests = words[layout::counter_triangle_tests];
-  counters.lane_steps = words[layout::counter_lane_steps];
-  counters.subgroup_steps = words[layout::counter_subgroup_steps];
+  counters.bytes_read = value(layout::counter_bytes_read) * word;
+  counters.bytes_written = value(layout::counter_bytes_written) * word;
+  counters.rays = value(layout::counter_rays);
+  counters.node_visits = value(layout::counter_node_visits);
+  counters.box_tests = value(layout::counter_box_tests);
+  counters.triangle_tests = value(layout::counter_triangle_tests);
+  counters.lane_steps = value(layout::counter_lane_steps);
+  counters.subgroup_steps = value(layout::counter_subgroup_steps);
   return counters;
 }
 

@@ -94,10 +94,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer WordSegment
 // The last binding of every kernel.
 #define COUNTERS(slot) \
   layout(set = 0, binding = slot, scalar) buffer counters_block { uint counters[]; }; \
+  void count(uint counter, uint amount) {                                             \
+    uint before = atomicAdd(counters[counter], amount);                              \
+    if (before + amount < before) atomicAdd(counters[counter_count + counter], 1u);  \
+  }                                                                                  \
   void flush_counters() {                                                            \
     if (counting != 0u) {                                                            \
-      atomicAdd(counters[counter_bytes_read], words_read);                           \
-      atomicAdd(counters[counter_bytes_written], words_written);                     \
+      count(counter_bytes_read, words_read);                                         \
+      count(counter_bytes_written, words_written);                                   \
     }                                                                                \
   }
 

@@ -53,12 +53,14 @@ class Blend : public Kernel<Probe> {
     const Lanes4 cx = y1 * z2 - z1 * y2, cy = z1 * x2 - x1 * z2, cz = x1 * y2 - y1 * x2;
     Lanes4 turned = cx * lane<0>(normal) + cy * lane<1>(normal) + cz * lane<2>(normal);
     const float determinant = first_lane(m.x * cx + m.y * cy + m.z * cz);
-    if (determinant < 0.0f) turned = turned * all_lanes(-1.0f);
+    const bool mirrored = determinant < 0.0f;
+    if (mirrored) turned = turned * all_lanes(-1.0f);
     alignas(16) static constexpr float up[4] = {0, 0, 1, 0};
     store_lanes(normalize_or(turned, load_lanes(up)), layout::floatBitsToUint(base_normal[3]),
                 this->stored(normals_, vertex));
     if (base_tangent != nullptr) {
-      store_lanes(normalize_or(m.dot(tangent), all_lanes(0)), layout::floatBitsToUint(base_tangent[3]),
+      const uint32_t side = layout::floatBitsToUint(base_tangent[3]);
+      store_lanes(normalize_or(m.dot(tangent), all_lanes(0)), mirrored ? side ^ 0x80000000u : side,
                   this->stored(tangents_, vertex));
     }
   }

@@ -202,9 +202,10 @@ HWY_ATTR inline Lanes4 sum3(Lanes4 v) {
 
 // layout::normalize_or; lane w of the result is anything.
 HWY_ATTR inline Lanes4 normalize_or(Lanes4 v, Lanes4 fallback) {
+  v = zero_below(v, 1e-30f);
   const Lanes4 size = abs(v);
   const Lanes4 scale = max(lane<0>(size), max(lane<1>(size), lane<2>(size)));
-  if (!(first_lane(scale) > 1e-18f)) return fallback;
+  if (!(first_lane(scale) > 0.0f)) return fallback;
   const Lanes4 s = v / scale;
   return flush_tiny(s / sqrt(sum3(s * s)));
 }

@@ -178,11 +178,11 @@ HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) 
       if (Block::counting) active += static_cast<uint32_t>(hn::CountTrue(d, entered));
       if (leaf) {
         test_quad(block, packet, address, lane, entered, enter);
-      } else if (lane + width < packet_rays) {
+      } else if (!Block::counting) {
         break;  // one ray that enters takes all of them along
       }
     }
-    block.count_step(1, packet_rays, active, packet_rays);
+    block.count_step(count, active);
     ++visits;
     walk = inside && !leaf ? layout::walk_down(walk, (block.order(address) >> (2 * octant)) & 3u)
                            : layout::walk_on(walk);

@@ -32,6 +32,7 @@ using Boxes = hn::CappedTag<float, wide_fan>;
 // of the largest terms.
 struct SingleRay {
   layout::Ray ray;
+  uint32_t passed;  // layout::accept_triangle
   alignas(16) float scale[4], near_offset[4], far_offset[4];
   uint32_t near_plane[3];  // 0: the low one comes first along the ray
   layout::Shear shear;
@@ -148,7 +149,7 @@ HWY_ATTR HWY_FLATTEN HWY_NOINLINE void accept_quad(const Block& block, const Sin
   const layout::Slabs slabs = layout::make_slabs(ray.ray, block.extent());
   const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.ray.tmin);
   if (!(enter <= layout::slab_exit(slabs, bound.lo, bound.hi, best.t))) return;
-  layout::intersect_quad(a, b, c, e, ray.ray, ray.shear, enter, texel, best);
+  layout::intersect_quad(a, b, c, e, ray.ray, ray.shear, ray.passed, enter, texel, best);
 }
 
 // Quads are tested in the blocks of four lanes of a vector, a corner a lane. (A vector of unknown length
@@ -241,15 +242,15 @@ HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, co
   return (first | second) & 0x1111;
 }
 
-// Whether a ray that passes a triangle of the quad meets it beyond tmin and no farther than `best`. Most do
-// not: a ray passes the quad that it starts on.
+// Whether a ray that passes a triangle of the quad meets it at tmin or beyond and no farther than `best`.
+// Most do not: a ray passes the quad that it starts on.
 HWY_ATTR inline bool may_hit(const QuadLanes& lanes, uint32_t quad, float tmin, float tmax) {
   const float* w = lanes.edges + 4 * quad;
   const float* t = lanes.t + 4 * quad;
   const float bd = lanes.bd[4 * quad];
   const float t_first = (w[1] * t[0] + w[2] * t[1] + w[0] * t[2]) / (w[1] + w[2] + w[0]);
   const float t_second = (-w[1] * t[3] + bd * t[2] + w[3] * t[1]) / (-w[1] + bd + w[3]);
-  return (t_first > tmin && t_first <= tmax) || (t_second > tmin && t_second <= tmax);
+  return (t_first >= tmin && t_first <= tmax) || (t_second >= tmin && t_second <= tmax);
 }
 #endif
 
@@ -363,13 +364,14 @@ struct Flight {
 template <class Block>
 HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
   if (!block.wanted(index)) return false;
-  const float* ray = block.ray_quads(index);
-  flight.best = {ray[7], 0, 0, layout::no_index};
-  if (ray[7] < 0.0f) {
-    block.finish(index, block.ray(index), flight.best, 0);
+  const layout::Ray ray = block.ray(index);
+  flight.best = {ray.tmax, 0, 0, layout::no_index};
+  if (ray.tmax < 0.0f) {
+    block.finish(index, ray, flight.best, 0);
     return false;
   }
-  make_ready(ray, block.extent(), block.grid(), flight.ray);
+  make_ready(block.ray_quads(index), block.extent(), block.grid(), flight.ray);
+  flight.ray.passed = block.passed(index);
   flight.index = index;
   flight.record = flight.visits = 0;
   flight.stack.size = 0;

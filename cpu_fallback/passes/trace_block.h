@@ -39,7 +39,8 @@ class TraceBlock : public TraceKernel<Probe> {
     glm::vec3 lo = lead.origin, hi = lead.origin;
     for (uint32_t i = first; i < first + count; ++i) {
       const layout::Ray other = ray(i);
-      if (octant_of(other) != octant || layout::dot3(lead.direction, other.direction) < 0.98f) return false;
+      if (octant_of(other) != octant || !(layout::dot3(lead.direction, other.direction) >= 0.98f))
+        return false;
       lo = layout::min3(lo, other.origin);
       hi = layout::max3(hi, other.origin);
     }
@@ -53,35 +54,39 @@ class TraceBlock : public TraceKernel<Probe> {
   layout::Ray ray(uint32_t index) const {
     const glm::uvec4 from = this->rays_.load4(2 * uint64_t(index)),
                      along = this->rays_.load4(2 * uint64_t(index) + 1);
-    return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
+    return layout::stored_ray(from, along);
   }
 
   // Whether ray `index` is to be traced in this dispatch, always from the root: nothing is left unfinished
   // here.
   bool wanted(uint32_t index) {
     if (this->push_.resume == 0) return true;
-    return this->states_.load4(index).w != layout::trace_finished;
+    return layout::trace_status(this->states_.load4(index)) != layout::trace_finished;
+  }
+  // What the mask has let this ray through (layout::accept_triangle).
+  uint32_t passed(uint32_t index) {
+    return this->push_.resume == 0 ? layout::no_index : this->states_.load4(index).w;
   }
 
   void finish(uint32_t index, const layout::Ray& ray, layout::Hit hit, uint32_t visits) {
     if (any_hit() && hit.primitive != layout::no_index) hit = {0, 0, 0, 0};
     this->hits_.store4(index, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
-    this->states_.store4(index, {0, 0, 0, layout::trace_finished});
+    this->states_.store4(index, {0, 0, layout::trace_finished, layout::no_index});
     if (this->constant(1) != 0) this->steps_.store1(index, visits);
     this->probe.read(8);
     this->probe.write(8);
     if (this->push_.resume == 0 && !(ray.tmax < 0.0f)) this->probe.ray();
   }
 
-  // `boxes` bounds were tested in one step of `lanes` rays out of `width`, reading `nodes` nodes.
-  void count_step(uint32_t nodes, uint32_t boxes, uint32_t lanes, uint32_t width) {
+  // One node was read and tested against the `rays` rays of a packet, of which `active` enter it.
+  void count_step(uint32_t rays, uint32_t active) {
     if constexpr (Probe::counting) {
       render::Counters& c = this->probe.counts;
-      c.node_visits += lanes;
-      c.box_tests += boxes;
-      c.bytes_read += 32 * uint64_t(nodes);
-      c.lane_steps += lanes;
-      c.subgroup_steps += width;
+      c.node_visits += rays;
+      c.box_tests += rays;
+      c.bytes_read += 32;
+      c.lane_steps += active;
+      c.subgroup_steps += packet_rays;
     }
   }
 

@@ -16,13 +16,13 @@ class TraceKernel : public Kernel<Probe> {
  protected:
   struct State {
     layout::Hit best;
-    glm::uvec4 place;  // { order, turns, depth, status } or { link, 0, 0, status }
+    glm::uvec4 place;  // as layout/trace.h says
   };
 
   layout::Ray load_ray(uint32_t index) {
     const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)),
                      along = this->load(rays_, 2 * uint64_t(index) + 1);
-    return {as_vec3(from), layout::uintBitsToFloat(from.w), as_vec3(along), layout::uintBitsToFloat(along.w)};
+    return layout::stored_ray(from, along);
   }
 
   // The largest absolute coordinate of the root's bound.
@@ -34,25 +34,25 @@ class TraceKernel : public Kernel<Probe> {
 
   // False: this ray has nothing to do in this dispatch.
   bool begin_ray(uint32_t index, const layout::Ray& ray, State& state) {
-    state = {{ray.tmax, 0, 0, layout::no_index}, {0, 0, 0, layout::trace_unfinished}};
+    state = {{ray.tmax, 0, 0, layout::no_index}, {0, 0, layout::trace_unfinished, layout::no_index}};
     visits_ = 0;
     if (push_.resume == 0) {
       if (!(ray.tmax < 0.0f)) this->probe.ray();
       return true;
     }
     state.place = this->load(states_, index);
-    if (state.place.w == layout::trace_restart) return true;
+    if (layout::trace_status(state.place) == layout::trace_restart) return true;
     const glm::uvec4 bits = this->load(hits_, index);
     state.best = {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y),
                   layout::uintBitsToFloat(bits.z), bits.w};
-    return state.place.w == layout::trace_unfinished;
+    return layout::trace_status(state.place) == layout::trace_unfinished;
   }
 
   void end_ray(uint32_t index, State state) {
     if (any_hit() && state.best.primitive != layout::no_index) state.best = {0, 0, 0, 0};
     this->store(hits_, index, as_bits({state.best.t, state.best.u, state.best.v}, state.best.primitive));
     this->store(states_, index, state.place);
-    if (state.place.w == layout::trace_unfinished) this->add(pending_, 0, 1);
+    if (layout::trace_status(state.place) == layout::trace_unfinished) this->add(pending_, 0, 1);
     if (this->constant(1) != 0) {
       this->store(steps_, index, (push_.resume != 0 ? this->load(steps_, index) : 0) + visits_);
     }
@@ -64,11 +64,11 @@ class TraceKernel : public Kernel<Probe> {
   }
 
   void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Shear& shear,
-                 float enter, layout::Hit& best) {
+                 uint32_t passed, float enter, layout::Hit& best) {
     layout::intersect_quad(as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
                            as_vec3(this->load(geometry_, texel + stride)),
-                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, enter, texel,
-                           best);
+                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, passed, enter,
+                           texel, best);
     this->probe.triangles(2);
   }
 

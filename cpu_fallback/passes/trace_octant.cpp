@@ -18,7 +18,7 @@ class TraceOctant : public TraceKernel<Probe> {
     typename TraceKernel<Probe>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
-    layout::Walk walk{state.place.z, state.place.x, state.place.y};
+    layout::Walk walk{layout::trace_depth(state.place), state.place.x, state.place.y};
     bool finished = ray.tmax < 0.0f;
     if (!finished) {
       for (uint32_t budget = this->push_.budget; budget != 0; --budget) {
@@ -31,15 +31,15 @@ class TraceOctant : public TraceKernel<Probe> {
           walk = layout::walk_down(walk, (lo.w >> (2 * slabs.octant)) & 3u);
           continue;
         }
-        if (inside) this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, ray, shear, enter, best);
+        if (inside) this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, ray, shear, state.place.w, enter, best);
         walk = layout::walk_on(walk);
         if (this->any_hit() && best.primitive != layout::no_index) walk.depth = layout::walk_done;
         if (walk.depth == layout::walk_done) break;
       }
       finished = walk.depth == layout::walk_done;
     }
-    state.place = uvec4(walk.order, walk.turns, walk.depth,
-                        finished ? layout::trace_finished : layout::trace_unfinished);
+    const uint32_t status = finished ? layout::trace_finished : layout::trace_unfinished;
+    state.place = uvec4(walk.order, walk.turns, 4 * walk.depth + status, state.place.w);
     this->end_ray(index, state);
   }
 

@@ -28,7 +28,7 @@ class TraceThreaded : public TraceKernel<Probe> {
         const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
         const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
         const bool at_leaf = inside && (hit & layout::leaf_flag) != 0;
-        if (at_leaf) this->test_leaf(hit & ~layout::leaf_flag, hi.w, ray, shear, enter, best);
+        if (at_leaf) this->test_leaf(hit & ~layout::leaf_flag, hi.w, ray, shear, state.place.w, enter, best);
         link = inside && !at_leaf ? hit : miss;
         if (this->any_hit() && best.primitive != layout::no_index) link = 0;
         if (link == 0) break;
@@ -36,7 +36,8 @@ class TraceThreaded : public TraceKernel<Probe> {
     } else {
       link = 0;
     }
-    state.place = uvec4(link, 0, 0, link == 0 ? layout::trace_finished : layout::trace_unfinished);
+    const uint32_t status = link == 0 ? layout::trace_finished : layout::trace_unfinished;
+    state.place = uvec4(link, 0, status, state.place.w);
     this->end_ray(index, state);
   }
 

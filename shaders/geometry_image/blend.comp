@@ -88,11 +88,12 @@ void main() {
   vec3 c1 = cross3(r2, r0);
   vec3 c2 = cross3(r0, r1);
   vec3 turned = vec3(dot3(c0, normal), dot3(c1, normal), dot3(c2, normal));
-  if (dot3(r0, c0) < 0.0) turned = turned * -1.0;
+  bool mirrored = dot3(r0, c0) < 0.0;
+  if (mirrored) turned = turned * -1.0;
   STORE4(normals, vertex, as_bits(normalize_or(turned, vec3(0.0, 0.0, 1.0)), normal_bits.w));
   if (push.tangents != 0u) {
     vec3 along = vec3(dot3(r0, tangent), dot3(r1, tangent), dot3(r2, tangent));
-    STORE4(tangents, vertex, as_bits(normalize_or(along, vec3(0.0, 0.0, 0.0)), tangent_bits.w));
+    STORE4(tangents, vertex, as_bits(normalize_or(along, vec3(0.0, 0.0, 0.0)), mirrored ? tangent_bits.w ^ 0x80000000u : tangent_bits.w));
   }
   flush_counters();
 }

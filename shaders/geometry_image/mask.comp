@@ -10,21 +10,27 @@ STRUCTS(18, restrict, uint, pending);
 COUNTERS(19)
 PUSH(CountPush, push);
 
+bool is_cut_out(uvec4 hit) {
+  if (hit.w == no_index) return false;
+  SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+  MaterialRecord material = materials[parts[point.part].material];
+  count_read(24u);
+  if (material.alpha_mask == 0u) return false;
+  return base_color_at(material, point, texcoords_at(point)).w < material.alpha_cutoff;
+}
+
 void main() {
   uint index = invocation();
   if (index >= push.count) return;
   uvec4 hit;
   LOAD4(hit, hits, index);
-  if (hit.w == no_index) return;
-  SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
-  MaterialRecord material = materials[parts[point.part].material];
-  if (material.alpha_mask == 0u) return;
-  if (!(base_color_at(material, point, texcoords_at(point)).w < material.alpha_cutoff)) return;
-  uvec4 from;
-  LOAD4(from, rays, 2u * index);
-  from.w = hit.x;
-  STORE4(rays, 2u * index, from);
-  STORE4(states, index, uvec4(0u, 0u, 0u, trace_restart));
-  atomicAdd(pending[0], 1u);
+  if (is_cut_out(hit)) {
+    uvec4 from;
+    LOAD4(from, rays, 2u * index);
+    from.w = hit.x;
+    STORE4(rays, 2u * index, from);
+    STORE4(states, index, uvec4(0u, 0u, trace_restart, hit.w));
+    atomicAdd(pending[0], 1u);
+  }
   flush_counters();
 }

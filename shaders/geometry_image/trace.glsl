@@ -27,12 +27,7 @@ Ray load_ray(uint index) {
   uvec4 along;
   LOAD4(from, rays, 2u * index);
   LOAD4(along, rays, 2u * index + 1u);
-  Ray ray;
-  ray.origin = as_vec3(from);
-  ray.tmin = uintBitsToFloat(from.w);
-  ray.direction = as_vec3(along);
-  ray.tmax = uintBitsToFloat(along.w);
-  return ray;
+  return stored_ray(from, along);
 }
 
 // The largest absolute coordinate of the root's bound.
@@ -51,7 +46,7 @@ void count_step() {
   if (counting != 0u && subgroupElect()) subgroup_steps += gl_SubgroupSize;
 }
 
-void test_leaf(uint texel, uint stride, Ray ray, Shear shear, float enter, inout Hit best) {
+void test_leaf(uint texel, uint stride, Ray ray, Shear shear, uint passed, float enter, inout Hit best) {
   uvec4 a;
   uvec4 b;
   uvec4 c;
@@ -60,7 +55,7 @@ void test_leaf(uint texel, uint stride, Ray ray, Shear shear, float enter, inout
   LOAD4(b, geometry, texel + 1u);
   LOAD4(c, geometry, texel + stride);
   LOAD4(d, geometry, texel + stride + 1u);
-  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, enter, texel, best);
+  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, passed, enter, texel, best);
   triangle_tests += 2u;
 }
 
@@ -70,17 +65,17 @@ bool begin_ray(uint index, Ray ray, out Hit best, out uvec4 state) {
   best.u = 0.0;
   best.v = 0.0;
   best.primitive = no_index;
-  state = uvec4(0u, 0u, 0u, trace_unfinished);
+  state = uvec4(0u, 0u, trace_unfinished, no_index);
   if (push.resume != 0u) {
     LOAD4(state, states, index);
-    if (state.w == trace_restart) return true;
+    if (trace_status(state) == trace_restart) return true;
     uvec4 bits;
     LOAD4(bits, hits, index);
     best.t = uintBitsToFloat(bits.x);
     best.u = uintBitsToFloat(bits.y);
     best.v = uintBitsToFloat(bits.z);
     best.primitive = bits.w;
-    return state.w == trace_unfinished;
+    return trace_status(state) == trace_unfinished;
   }
   return true;
 }
@@ -94,19 +89,19 @@ void end_ray(uint index, Ray ray, Hit best, uvec4 state) {
   }
   STORE4(hits, index, as_bits(vec3(best.t, best.u, best.v), best.primitive));
   STORE4(states, index, state);
-  if (state.w == trace_unfinished) atomicAdd(pending[0], 1u);
+  if (trace_status(state) == trace_unfinished) atomicAdd(pending[0], 1u);
   if (write_steps != 0u) {
     uint before = 0u;
     if (push.resume != 0u) LOAD1(before, steps, index);
     STORE1(steps, index, before + node_visits);
   }
   if (counting != 0u) {
-    if (push.resume == 0u && !(ray.tmax < 0.0)) atomicAdd(counters[counter_rays], 1u);
-    atomicAdd(counters[counter_node_visits], node_visits);
-    atomicAdd(counters[counter_box_tests], node_visits);
-    atomicAdd(counters[counter_triangle_tests], triangle_tests);
-    atomicAdd(counters[counter_lane_steps], node_visits);
-    atomicAdd(counters[counter_subgroup_steps], subgroup_steps);
+    if (push.resume == 0u && !(ray.tmax < 0.0)) count(counter_rays, 1u);
+    count(counter_node_visits, node_visits);
+    count(counter_box_tests, node_visits);
+    count(counter_triangle_tests, triangle_tests);
+    count(counter_lane_steps, node_visits);
+    count(counter_subgroup_steps, subgroup_steps);
   }
   flush_counters();
 }

@@ -14,12 +14,15 @@ void main() {
   Shear shear = make_shear(ray);
   Hit best;
   uvec4 state;
-  if (!begin_ray(index, ray, best, state)) return;
+  if (!begin_ray(index, ray, best, state)) {
+    flush_counters();
+    return;
+  }
 
   Walk walk;
   walk.order = state.x;
   walk.turns = state.y;
-  walk.depth = state.z;
+  walk.depth = trace_depth(state);
   uint octant_shift = 2u * slabs.octant;
   bool walking = !(ray.tmax < 0.0);
   uint budget = push.budget;
@@ -51,7 +54,7 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, shear, enter, best);
+      test_leaf(texel, stride, ray, shear, state.w, enter, best);
       walk = walk_on(walk);
       if (any_hit != 0u && best.primitive != no_index) walk.depth = walk_done;
       budget -= 1u;
@@ -59,6 +62,6 @@ void main() {
     }
   }
   bool finished = walk.depth == walk_done || ray.tmax < 0.0;
-  state = uvec4(walk.order, walk.turns, walk.depth, finished ? trace_finished : trace_unfinished);
+  state = uvec4(walk.order, walk.turns, 4u * walk.depth + (finished ? trace_finished : trace_unfinished), state.w);
   end_ray(index, ray, best, state);
 }

@@ -13,7 +13,10 @@ void main() {
   Shear shear = make_shear(ray);
   Hit best;
   uvec4 state;
-  if (!begin_ray(index, ray, best, state)) return;
+  if (!begin_ray(index, ray, best, state)) {
+    flush_counters();
+    return;
+  }
 
   uint link = state.x;
   bool walking = !(ray.tmax < 0.0);
@@ -46,12 +49,12 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, shear, enter, best);
+      test_leaf(texel, stride, ray, shear, state.w, enter, best);
       link = any_hit != 0u && best.primitive != no_index ? 0u : miss;
       budget -= 1u;
       walking = link != 0u && budget != 0u;
     }
   }
-  state = uvec4(link, 0u, 0u, link == 0u || ray.tmax < 0.0 ? trace_finished : trace_unfinished);
+  state = uvec4(link, 0u, link == 0u || ray.tmax < 0.0 ? trace_finished : trace_unfinished, state.w);
   end_ray(index, ray, best, state);
 }

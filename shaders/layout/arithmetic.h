@@ -29,10 +29,14 @@ FN vec3 mix3(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
 FN float flush_tiny(float x) { return abs1(x) < 8.673617e-19f ? 0.0f : x; }
 FN vec3 flush_tiny3(vec3 v) { return vec3(flush_tiny(v.x), flush_tiny(v.y), flush_tiny(v.z)); }
 
+// What is too small for the flushing of a product somewhere behind it to leave its bits alone becomes +0.
+FN float flush_lost(float x) { return abs1(x) < 1e-30f ? 0.0f : x; }
+
 // v / |v|; `fallback` where v is too short to have a direction.
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
+  v = vec3(flush_lost(v.x), flush_lost(v.y), flush_lost(v.z));
   float scale = max_component(vec3(abs1(v.x), abs1(v.y), abs1(v.z)));
-  if (!(scale > 1e-18f)) return fallback;
+  if (!(scale > 0.0f)) return fallback;
   vec3 s = vec3(v.x / scale, v.y / scale, v.z / scale);
   float length = sqrt(dot3(s, s));
   return flush_tiny3(vec3(s.x / length, s.y / length, s.z / length));

@@ -54,6 +54,12 @@ FN vec2 transform_texcoord(TextureRecord texture_record, vec2 uv) {
               texture_record.v_row.x * uv.x + texture_record.v_row.y * uv.y + texture_record.v_row.z);
 }
 
+// A vertex colour as stored: the square roots of R, G and B, which keeps dark tones apart, and A.
+FN vec4 unpack_vertex_color(uint rgba) {
+  vec4 c = vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u), float(rgba >> 24u)) / 255.0f;
+  return vec4(c.x * c.x, c.y * c.y, c.z * c.z, c.w);
+}
+
 FN vec4 unpack_rgba8(uint rgba) {
   return vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u), float(rgba >> 24u)) /
          255.0f;
@@ -68,6 +74,7 @@ FN vec3 sky_radiance(FrameRecord frame, vec3 direction) {
 
 struct Surface {
   vec3 position;
+  float reach;     // the largest number in its rounding: a coordinate, or the way to a corner of its triangle
   vec3 geometric;  // unit normals, turned to the viewer
   vec3 normal;
   vec3 view;       // to the viewer, unit length
@@ -189,11 +196,10 @@ FN LightSample sample_light(LightRecord light, FrameRecord frame, Surface s, vec
   return result;
 }
 
-// From just above the surface to just before the light. The offset covers the rounding of the position and the margin that
-// traversal gives to bounds.
+// From just above the surface to just before the light. A position is off by less than 2^-21 of the surface's reach (three
+// products and their sum, each by half an ulp), and so is the t that traversal finds for the triangle that it lies on.
 FN Ray shadow_ray(Surface s, LightSample light) {
-  float size = max2(max_component(vec3(abs1(s.position.x), abs1(s.position.y), abs1(s.position.z))), 1e-6f);
-  float offset = size * 1.9073486e-5f;  // 2^-15.7
+  float offset = s.reach * 1.9073486e-6f;  // 2^-19
   Ray ray;
   ray.origin = flush_tiny3(s.position + s.geometric * offset);
   ray.tmin = 0.0f;

@@ -110,12 +110,13 @@ FN vec4 base_color_at(MaterialRecord material, SurfacePoint point, vec4 uvs) {
   LOAD4(n0, normals, point.vertex[0]);
   LOAD4(n1, normals, point.vertex[1]);
   LOAD4(n2, normals, point.vertex[2]);
-  return color * (unpack_rgba8(n0.w) * (1.0f - point.b1 - point.b2) + unpack_rgba8(n1.w) * point.b1 +
-                  unpack_rgba8(n2.w) * point.b2);
+  return color * (unpack_vertex_color(n0.w) * (1.0f - point.b1 - point.b2) + unpack_vertex_color(n1.w) * point.b1 +
+                  unpack_vertex_color(n2.w) * point.b2);
 }
 
-// Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set`.
-FN vec4 tangent_at(SurfacePoint point, uint set) {
+// Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set`, on the side of
+// `normal`.
+FN vec4 tangent_at(SurfacePoint point, uint set, vec3 normal) {
   uvec4 t0;
   uvec4 t1;
   uvec4 t2;
@@ -141,8 +142,10 @@ FN vec4 tangent_at(SurfacePoint point, uint set) {
   vec3 e2 = as_vec3(p2) - as_vec3(p0);
   float area = uv1.x * uv2.y - uv1.y * uv2.x;
   vec3 along = e1 * uv2.y - e2 * uv1.y;
+  vec3 down = e2 * uv1.x - e1 * uv2.x;
   float side = area < 0.0f ? -1.0f : 1.0f;
-  return vec4(along.x * side, along.y * side, along.z * side, side);
+  // glTF's v runs down and a normal map's green up.
+  return vec4(along.x * side, along.y * side, along.z * side, dot3(cross3(normal, along), down) > 0.0f ? -1.0f : 1.0f);
 }
 
 FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
@@ -153,6 +156,11 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
   vec4 uvs = texcoords_at(point);
   s.texcoord = vec2(uvs.x, uvs.y);
   s.position = point.corner[0] * point.weight[0] + point.corner[1] * point.weight[1] + point.corner[2] * point.weight[2];
+  s.reach = max_component(vec3(abs1(s.position.x), abs1(s.position.y), abs1(s.position.z)));
+  for (int i = 0; i < 3; ++i) {
+    vec3 away = point.corner[i] - s.position;
+    s.reach = max2(s.reach, max_component(vec3(abs1(away.x), abs1(away.y), abs1(away.z))));
+  }
   s.view = from_viewer * -1.0f;
   vec3 across = cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]);
   s.geometric = normalize_or(across, s.view);
@@ -185,7 +193,7 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
     s.emission = s.emission * vec3(texel.x, texel.y, texel.z);
   }
   if (material.normal_texture != no_index) {
-    vec4 tangent = tangent_at(point, textures[material.normal_texture].texcoord);
+    vec4 tangent = tangent_at(point, textures[material.normal_texture].texcoord, s.normal);
     vec3 t = vec3(tangent.x, tangent.y, tangent.z);
     t = normalize_or(t - s.normal * dot3(s.normal, t), vec3(0.0f, 0.0f, 0.0f));
     vec3 b = cross3(s.normal, t) * tangent.w;

@@ -20,6 +20,18 @@ struct Ray {
   float tmax;  // ... and not beyond tmax; negative: no ray
 };
 
+// From its two quads in a buffer. One that is not finite is no ray: it would pass comparisons with bounds by chance.
+FN Ray stored_ray(uvec4 from, uvec4 along) {
+  Ray ray;
+  ray.origin = vec3(uintBitsToFloat(from.x), uintBitsToFloat(from.y), uintBitsToFloat(from.z));
+  ray.tmin = uintBitsToFloat(from.w);
+  ray.direction = vec3(uintBitsToFloat(along.x), uintBitsToFloat(along.y), uintBitsToFloat(along.z));
+  float sum = abs1(ray.origin.x) + abs1(ray.origin.y) + abs1(ray.origin.z) + abs1(ray.direction.x) +
+              abs1(ray.direction.y) + abs1(ray.direction.z);
+  ray.tmax = sum <= infinity_bits_as_max ? uintBitsToFloat(along.w) : -1.0f;
+  return ray;
+}
+
 // t in units of |direction|; u, v the barycentrics of the triangle's second and third corner; primitive =
 // 2 * texel of corner a + half. Half 0 is the triangle (a, b, c), half 1 is (d, c, b).
 struct Hit {
@@ -120,12 +132,14 @@ FN bool one_sided(float a, float b, float c) {
 
 // w0, w1, w2: the edge functions opposite p0, p1, p2. t is a mean of the corners' with weights of one sign, so it cannot
 // leave their range however small the triangle is.
-FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, float enter,
+// A ray that a mask let through goes on from tmin and behind primitive `passed`, so that what lies in the same plane is
+// met as well; no_index: there is none.
+FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, uint passed, float enter,
                         uint primitive, INOUT(Hit) best) {
   float sum = w0 + w1 + w2;
   if (one_sided(w0, w1, w2) && sum != 0.0f) {
     float t = (w0 * p0.z + w1 * p1.z + w2 * p2.z) / sum;
-    bool beyond = t > tmin;
+    bool beyond = t > tmin || (t == tmin && primitive > passed);
     t = max2(t, enter);
     if (beyond && (t < best.t || (t == best.t && primitive < best.primitive))) {
       best.t = t;
@@ -137,15 +151,15 @@ FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2,
 }
 
 // Both triangles of the quad a b c d by its five edge functions. `enter`: slab_enter of the quad's own bound.
-FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, float enter, uint texel,
+FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, uint passed, float enter, uint texel,
                        INOUT(Hit) best) {
   a = sheared(a, ray.origin, shear);
   b = sheared(b, ray.origin, shear);
   c = sheared(c, ray.origin, shear);
   d = sheared(d, ray.origin, shear);
   float bc = edge_function(b, c);
-  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, enter, 2u * texel, best);
-  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, enter, 2u * texel + 1u, best);
+  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, passed, enter, 2u * texel, best);
+  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, passed, enter, 2u * texel + 1u, best);
 }
 
 // A place in the tree in visiting order, without a stack: two bits a level. `turns` holds, for each level on the path,
@@ -180,10 +194,13 @@ FN Walk walk_on(Walk walk) {
   return walk;
 }
 
-// Traversal states between dispatches: { order, turns, depth, status } or { link, 0, 0, status }.
+// Traversal states between dispatches: { order, turns, 4 * depth + status, passed } or { link, 0, status, passed };
+// `passed` as accept_triangle has it.
 CONST uint trace_finished = 0u;
 CONST uint trace_unfinished = 1u;
 CONST uint trace_restart = 2u;  // from the root, with nothing hit (the ray's tmin has moved)
+FN uint trace_status(uvec4 state) { return state.z & 3u; }
+FN uint trace_depth(uvec4 state) { return state.z >> 2u; }
 
 struct TracePush {
   uint rays;

@@ -36,7 +36,7 @@ std::optional<Atlas> find_cached(const fs::path& file, const std::string& hash,
     Atlas atlas = load_atlas(file, &stored);
     if (stored == hash && atlas.report.triangles == assembly.triangles.size()) return atlas;
     log::note(file.string() + ": is the atlas of another scene; it is built again");
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // also where it claims more memory than there is
     log::note(std::string(error.what()) + "; it is built again");
   }
   return std::nullopt;

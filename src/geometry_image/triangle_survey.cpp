@@ -89,6 +89,10 @@ class Surveyor {
       std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
       return c;
     };
+    // The same triangle of another material is another one: it may show where the first is cut out.
+    const auto material = [&](uint32_t i) {
+      return assembly_.parts[assembly_.triangles[single_[i]].w].material;
+    };
     const std::vector<uint32_t> first = first_equal(
         static_cast<uint32_t>(single_.size()),
         [&](uint32_t i) {
@@ -96,7 +100,9 @@ class Surveyor {
           for (const uint32_t corner : lowest_corner_first(i)) hash.add(uint64_t(corner));
           return hash.value();
         },
-        [&](uint32_t i, uint32_t j) { return lowest_corner_first(i) == lowest_corner_first(j); });
+        [&](uint32_t i, uint32_t j) {
+          return material(i) == material(j) && lowest_corner_first(i) == lowest_corner_first(j);
+        });
     for (uint32_t i = 0; i < first.size(); ++i) {
       if (first[i] != i) fate(single_[i]) = TriangleFate::dropped_duplicate;
     }

@@ -50,7 +50,7 @@ constexpr Binding wide_nodes_bindings[] = {
   {"hits", quad, read}, {"geometry", quad, read}, {"normal_map", quad, read}, {"texel_map", quad, read}, \
       {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read},                     \
       {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
-      {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                   \
+      {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                      \
       {"materials", structs, read}, {"textures", structs, read}, {                                       \
     "frame", structs, read                                                                               \
   }

@@ -14,6 +14,7 @@
 #include "lodestone/render/passes.h"
 #include "lodestone/render/scene_tables.h"
 #include "lodestone/render/view.h"
+#include "lodestone/scene/pose_reach.h"
 
 namespace lodestone::render {
 namespace {
@@ -38,6 +39,8 @@ struct RayBuffers {
 
 }  // namespace
 
+using Interrupted = std::function<bool()>;
+
 struct Renderer::State {
   Backend& backend;
   const scene::Scene& scene;
@@ -47,6 +50,7 @@ struct Renderer::State {
   Traversal traversal;
   HierarchyLevels levels;
   SceneTables tables;
+  scene::PoseReach reach;
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
@@ -84,11 +88,12 @@ struct Renderer::State {
   void update(const scene::Pose& pose);
   void build_bounds();
   void begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count);
-  void trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps);
-  void trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps);
+  bool trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
+             const Interrupted& interrupted);
+  bool trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
+                    const Interrupted& interrupted);
   uint32_t take_pending();
-  bool render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count,
-                    const std::function<bool()>& interrupted);
+  bool render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count, const Interrupted& interrupted);
 };
 
 Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -100,7 +105,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       settings(settings_in),
       traversal(settings_in.traversal),
       levels(atlas_in.depth, static_cast<uint32_t>(atlas_in.leaf_map.size())),
-      tables(device, scene_in, assembly_in, atlas_in) {
+      tables(device, scene_in, assembly_in, atlas_in),
+      reach(scene_in) {
   check_aovs(settings.aovs);
   const bool cpu = device.info().kind == "cpu";
   if (traversal == Traversal::automatic) traversal = cpu ? Traversal::wide : Traversal::octant;
@@ -149,6 +155,7 @@ void Renderer::State::build_links() {
 
 // blend, rasterise, bounds: everything that follows from the pose.
 void Renderer::State::update(const scene::Pose& pose) {
+  reach.check(scene, pose);
   const std::vector<float> frame_weights = scene::frame_weights(scene, assembly, pose);
   const std::vector<glm::vec4> frame_matrices = scene::frame_matrices(scene, assembly, pose);
   if (!frame_weights.empty()) backend.upload(weights.id(), std::as_bytes(std::span(frame_weights)));
@@ -216,8 +223,9 @@ uint32_t Renderer::State::take_pending() {
   return count;
 }
 
-// All rays to their end, in as many dispatches as the budget of each needs.
-void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps) {
+// All rays to their end, in as many dispatches as the budget of each needs. False: interrupted.
+bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
+                            const Interrupted& interrupted) {
   const PassDecl* closest[] = {nullptr, &passes::trace_threaded, &passes::trace_octant, &passes::trace_wide};
   const PassDecl* any[] = {nullptr, &passes::occlude_threaded, &passes::occlude_octant,
                            &passes::occlude_wide};
@@ -231,47 +239,49 @@ void Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit
   layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget,
                          levels.slots()};
   do {
+    if (interrupted && interrupted()) return false;
     backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
     run(pass, buffers, push, count, {any_hit ? 1u : 0u, steps ? 1u : 0u});
     push.resume = 1;
   } while (take_pending() != 0);
+  return true;
 }
 
 // The same where materials cut out texels: hits on those are passed through until none is left. The nearest
 // hit has to be found each time, also for shadow rays.
-void Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps) {
-  trace(rays, count, any_hit && !tables.has_masks, steps);
-  if (!tables.has_masks) return;
+bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
+                                   const Interrupted& interrupted) {
+  if (!trace(rays, count, any_hit && !tables.has_masks, steps, interrupted)) return false;
+  if (!tables.has_masks) return true;
   do {
     run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), pending.id()}),
         layout::CountPush{count}, count);
-    if (take_pending() == 0) return;
-    trace(rays, count, false, steps);
-  } while (true);
+    if (take_pending() == 0) return true;
+  } while (trace(rays, count, false, steps, interrupted));
+  return false;
 }
 
 // All samples of a run of pixels. False: interrupted.
 bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count,
-                                   const std::function<bool()>& interrupted) {
+                                   const Interrupted& interrupted) {
   if (!settings.aovs.empty()) {
     const layout::RayPush push{first_ray, count, 0, 1, 0, 1};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
-    trace_masked(primary, count, false, true);
+    if (!trace_masked(primary, count, false, true, interrupted)) return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
         count);
   }
   for (uint32_t sample = 0; sample < settings.spp; ++sample) {
     layout::RayPush push{first_ray, count, sample, settings.spp == 1 ? 1u : 0u, 0, sample == 0 ? 1u : 0u};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
-    trace_masked(primary, count, false, false);
+    if (!trace_masked(primary, count, false, false, interrupted)) return false;
     for (uint32_t light = 0; light < light_count; ++light) {
-      if (interrupted && interrupted()) return false;
       push.light = light;
       run(passes::shade,
           surface_buffers(
               primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
           push, count);
-      trace_masked(shadow, count, true, false);
+      if (!trace_masked(shadow, count, true, false, interrupted)) return false;
       run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
           count);
     }
@@ -337,7 +347,7 @@ void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
 }
 
 void Renderer::trace_loaded() {
-  state_->trace(state_->loaded, state_->loaded_rays, false, false);
+  state_->trace(state_->loaded, state_->loaded_rays, false, false, {});
 }
 
 std::vector<glm::uvec4> Renderer::hits() {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lodestone/base/error.h"
+#include "lodestone/scene/pose_reach.h"
 
 namespace lodestone::render {
 namespace {
@@ -33,11 +34,27 @@ View scene_view(const scene::Scene& scene, const scene::Pose& pose, uint32_t nod
   return view;
 }
 
+float largest_of(const vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// A node that is scaled to nothing, or placed beyond all numbers, shows nothing and says nothing.
+View checked(const scene::Scene& scene, View view) {
+  const float sum =
+      largest_of(view.origin) + largest_of(view.right) + largest_of(view.up) + largest_of(view.forward);
+  const bool flat = largest_of(view.right) == 0 || largest_of(view.up) == 0 || largest_of(view.forward) == 0;
+  if (flat || !(sum <= 10 * scene::largest_reach)) {
+    fail_input(scene.name, "camera {} has no size or lies too far out to see; use another --camera, or auto",
+               view.name.empty() ? "(without a name)" : view.name);
+  }
+  return view;
+}
+
 // From the front, a little from above and from the right, as near as all corners of the bounds allow.
 View auto_view(const scene::Bounds& bounds, float aspect) {
   const vec3 lo = bounds.empty ? vec3(-1) : bounds.lo, hi = bounds.empty ? vec3(1) : bounds.hi;
   const vec3 center = (lo + hi) * 0.5f;
-  const float size = std::max(glm::length(hi - lo), 1e-6f);
+  const float size = std::max(glm::length(hi - lo), scene::smallest_reach);
   const vec3 back = glm::normalize(vec3(0.35f, 0.28f, 1.0f));
   const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back)), up = glm::cross(back, right);
   const float half = std::tan(0.5f * 0.6f);
@@ -73,7 +90,8 @@ layout::LightRecord light_record(const scene::Light& light, const glm::mat4& wor
       break;
   }
   record.position = vec3(world[3]);
-  record.direction = -glm::normalize(vec3(world[2]));
+  const vec3 back = vec3(world[2]);
+  record.direction = largest_of(back) > 0 ? -glm::normalize(back) : vec3(0, 0, -1);
   record.range = light.range;
   record.color = light.color * light.intensity;
   const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
@@ -97,7 +115,7 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
     if (scene.nodes[node].camera == scene::none) continue;
     const View view = scene_view(scene, pose, node, aspect);
     if (name.empty() || view.name == name || scene.nodes[node].name == name || (numeric && index == number))
-      return view;
+      return checked(scene, view);
     known += (known.empty() ? "" : ", ") + (view.name.empty() ? std::to_string(index) : view.name);
     ++index;
   }

@@ -75,8 +75,10 @@ void for_each_vertex(const Mesh& mesh, const Body& body) {
   });
 }
 
+// As layout::unpack_vertex_color undoes it.
 uint32_t pack_color(const glm::vec4& color) {
-  const glm::vec4 scaled = glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f;
+  const glm::vec4 within = glm::clamp(color, 0.0f, 1.0f);
+  const glm::vec4 scaled = glm::vec4(glm::sqrt(glm::vec3(within)), within.w) * 255.0f + 0.5f;
   return uint32_t(scaled.x) | uint32_t(scaled.y) << 8 | uint32_t(scaled.z) << 16 | uint32_t(scaled.w) << 24;
 }
 

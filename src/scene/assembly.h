@@ -45,7 +45,7 @@ struct Assembly {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec4> tangents;  // xyz 0 where the mesh has none
   std::vector<glm::vec2> texcoords[2];
-  std::vector<uint32_t> colors;           // RGBA8, R lowest; 0xffffffff where the mesh has none
+  std::vector<uint32_t> colors;           // layout::unpack_vertex_color; 0xffffffff where the mesh has none
   std::vector<uint32_t> first_morph;      // vertex v has morphs[first_morph[v] .. first_morph[v + 1])
   std::vector<MorphEntry> morphs;         // ascending weight index within a vertex
   std::vector<uint32_t> first_influence;  // as above; at least one a vertex

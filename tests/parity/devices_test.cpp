@@ -6,6 +6,7 @@
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/ready_scene.h"
+#include "lodestone/test_support/small_scenes.h"
 
 namespace lodestone::test {
 namespace {
@@ -33,7 +34,7 @@ std::vector<render::PassDifference> differences(const ReadyScene& ready,
 }
 
 std::unique_ptr<render::Backend> open_validated(const std::string& name) {
-  return open(name, {.validate = name != "cpu"});
+  return open(name, {.validate = true});
 }
 
 class Devices : public testing::TestWithParam<std::string> {};
@@ -86,7 +87,6 @@ TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
 
 // As with scenes whose arrays are larger than a buffer of the device can be: here most of them.
 TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
-  if (GetParam() == "cpu") GTEST_SKIP() << "the CPU has no such limit";
   for (const auto kind : {geometry_image::AtlasKind::automatic, geometry_image::AtlasKind::exact}) {
     const ReadyScene ready("builtin:spheres", kind);
     for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
@@ -97,22 +97,46 @@ TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
   }
 }
 
-TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
-  if (GetParam() == "cpu") GTEST_SKIP() << "a fault of the device needs a device";
-  const ReadyScene ready("builtin:tiny");
-  for (const char* pass : {"blend", "rasterise", "bounds", "camera", "trace", "aov", "shade", "occlude",
-                           "accumulate", "resolve"}) {
-    const auto rows =
-        differences(ready, open_validated(GetParam()), 0.3f, small_settings(), render::Fault{pass, 70});
-    std::string first;
-    for (const auto& row : rows) {
-      if (row.different != 0 && first.empty()) first = row.pass;
-    }
-    EXPECT_EQ(first, pass);
+// Cut-out layers in one plane and behind each other.
+ReadyScene masked_scene() {
+  scene::Material cut;
+  cut.base_color.w = 0.2f;
+  cut.alpha_mask = true;
+  return ReadyScene(
+      facing_camera({square(0.25f, 0), square(0.25f, 1), square(0.5f, 0), square(-0.5f, 0)}, {cut, {}}));
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
+  const ReadyScene ready = masked_scene();
+  for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+    render::Settings settings = small_settings();
+    settings.traversal = traversal;
+    expect_equal(ready, GetParam(), settings);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Devices, testing::ValuesIn(device_names()),
+// One bit of what a pass wrote, and nothing else, in the row of that pass.
+TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
+  constexpr uint32_t bit = 70;
+  const ReadyScene ready = masked_scene();
+  for (const char* pass : {"links", "blend", "rasterise", "bounds", "camera", "trace", "mask", "aov", "shade",
+                           "occlude", "accumulate", "resolve"}) {
+    const auto rows =
+        differences(ready, open_validated(GetParam()), 0, small_settings(), render::Fault{pass, bit});
+    uint32_t found = 0;
+    for (const auto& row : rows) {
+      if (row.different == 0) continue;
+      ++found;
+      EXPECT_EQ(row.pass, pass);
+      EXPECT_EQ(row.different, 1u) << pass;
+      EXPECT_EQ(row.first, bit / 32) << pass;
+      EXPECT_EQ(row.device_value ^ row.reference_value, 1u << bit % 32) << pass;
+    }
+    EXPECT_EQ(found, 1u) << pass;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Devices, testing::ValuesIn(vulkan_device_names()),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -27,6 +27,12 @@ std::vector<std::string> device_names() {
   return names;
 }
 
+std::vector<std::string> vulkan_device_names() {
+  std::vector<std::string> names = device_names();
+  names.erase(names.begin());
+  return names;
+}
+
 std::unique_ptr<render::Backend> open(const std::string& name, const render::BackendOptions& options) {
   if (name == "cpu") return cpu_fallback::make_cpu_backend(options);
   name_drivers();

@@ -13,6 +13,9 @@ namespace lodestone::test {
 // "cpu", "llvmpipe" and, where $LODESTONE_SWIFTSHADER_ICD names its driver file, "SwiftShader".
 std::vector<std::string> device_names();
 
+// The same without "cpu".
+std::vector<std::string> vulkan_device_names();
+
 // Throws Error(device).
 std::unique_ptr<render::Backend> open(const std::string& name, const render::BackendOptions& options = {});
 

@@ -70,7 +70,7 @@ TEST(Assembly, FillsInAttributesThatAMeshLacks) {
   Mesh full = strip(3);
   full.tangents = {{1, 0, 0, -1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
   full.texcoords[1] = {{0, 0}, {1, 0}, {0.5f, 0.25f}};
-  full.colors = {{0, 0.5f, 1, 0}, {1, 1, 1, 1}, {2, -1, 0.2f, 1}};
+  full.colors = {{0, 0.25f, 1, 0}, {1, 1, 1, 1}, {2, -1, 0.04f, 1}};
   const Assembly assembly = assemble(scene_of({strip(3), full}));
   EXPECT_TRUE(assembly.has_tangents);
   ASSERT_EQ(assembly.tangents.size(), 6u);

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// What a picture must show, in scenes small enough to know it beforehand; on every device.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "lodestone/base/error.h"
+#include "lodestone/cpu_fallback/cpu_backend.h"
+#include "lodestone/test_support/devices.h"
+#include "lodestone/test_support/ready_scene.h"
+#include "lodestone/test_support/small_scenes.h"
+
+namespace lodestone::test {
+namespace {
+
+render::Settings settings_of(uint32_t size) {
+  render::Settings settings;
+  settings.width = settings.height = size;
+  settings.aovs = {"depth", "normal", "albedo", "uv", "id"};
+  return settings;
+}
+
+image::Image picture(render::Backend& backend, const ReadyScene& ready, float time,
+                     const render::Settings& settings) {
+  render::Renderer renderer(backend, ready.scene, ready.assembly, ready.atlas, settings);
+  const scene::Pose pose = ready.pose(time);
+  const auto bounds = scene::pose_bounds(ready.scene, pose);
+  const auto view = render::find_view(ready.scene, pose, "", bounds, settings.width, settings.height);
+  return renderer.render(pose, view)->linear;
+}
+
+float value(const image::Image& image, const char* channel, uint32_t x, uint32_t y) {
+  return image.find(channel)->values[size_t(y) * image.width + x];
+}
+
+scene::Material colored(const glm::vec3& color, float alpha = 1, bool mask = false) {
+  scene::Material material;
+  material.base_color = glm::vec4(color, alpha);
+  material.metallic = 0;
+  material.alpha_mask = mask;
+  return material;
+}
+
+class Pictures : public testing::TestWithParam<std::string> {
+ protected:
+  image::Image render(const scene::Scene& scene, uint32_t size = 16,
+                      render::Traversal traversal = render::Traversal::automatic) const {
+    const auto backend = open(GetParam(), {.validate = GetParam() != "cpu"});
+    render::Settings settings = settings_of(size);
+    settings.traversal = traversal;
+    return picture(*backend, ReadyScene(scene), 0, settings);
+  }
+};
+
+const glm::vec3 red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1);
+
+// Whichever comes first in the file, and whether its triangles are the other's own or not.
+TEST_P(Pictures, ShowWhatLiesInThePlaneOfACutOutSurface) {
+  const std::vector<scene::Material> materials = {colored(red, 0, true), colored(green)};
+  for (const uint32_t first : {0u, 1u}) {
+    for (const bool same_diagonal : {true, false}) {
+      scene::Mesh a = square(0, first), b = square(0, 1 - first);
+      if (!same_diagonal) b.triangles = {{2, 3, 0}, {1, 0, 3}};
+      for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+        const image::Image image = render(facing_camera({a, b}, materials), 16, traversal);
+        for (uint32_t y = 3; y < 13; ++y) {
+          for (uint32_t x = 3; x < 13; ++x) {
+            EXPECT_EQ(value(image, "A", x, y), 1) << x << " " << y;
+            EXPECT_EQ(value(image, "albedo.G", x, y), 1) << x << " " << y;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Pictures, GoThroughManyCutOutLayers) {
+  std::vector<scene::Mesh> layers;
+  for (int i = 0; i < 40; ++i) layers.push_back(square(1 - 0.01f * static_cast<float>(i), 0));
+  layers.push_back(square(-0.5f, 1));
+  const image::Image image = render(facing_camera(layers, {colored(red, 0, true), colored(blue)}));
+  EXPECT_EQ(value(image, "albedo.B", 8, 8), 1);
+  EXPECT_EQ(value(image, "depth.Z", 8, 8), 3.5f);
+}
+
+// Green of a normal map points against v, which runs down: a bump lit from above is light at its upper side.
+scene::Scene normal_mapped(bool tangents, const glm::vec3& scale) {
+  scene::Material material = colored({1, 1, 1});
+  material.normal_texture.image = 0;
+  scene::Mesh mesh = square(0, 0);
+  if (tangents) mesh.tangents.assign(4, {1, 0, 0, 1});
+  scene::Scene scene = facing_camera({mesh}, {material});
+  scene::Image up;
+  up.width = up.height = 1;
+  up.rgba = {128, 218, 218, 255};
+  scene.images = {up};
+  scene.nodes[0].scale = scale;
+  return scene;
+}
+
+TEST_P(Pictures, LightNormalMapsTheRightWayUpWithTangentsAndWithout) {
+  for (const bool tangents : {true, false}) {
+    for (const glm::vec3& scale : {glm::vec3(1, 1, 1), glm::vec3(-1, 1, 1)}) {
+      const image::Image image = render(normal_mapped(tangents, scale));
+      EXPECT_NEAR(value(image, "normal.Y", 8, 8), 0.707f, 0.01f) << tangents << " " << scale.x;
+      EXPECT_NEAR(value(image, "normal.X", 8, 8), 0, 0.01f);
+    }
+  }
+  const image::Image flipped = render(normal_mapped(true, {1, -1, 1}));
+  EXPECT_NEAR(value(flipped, "normal.Y", 8, 8), -0.707f, 0.01f);
+}
+
+// A small square over a large one, lit straight from the front, far from the origin.
+scene::Scene square_over_square(float far) {
+  scene::Mesh above = square(0.25f, 0);
+  for (glm::vec3& p : above.positions) p = {p.x * 0.5f, p.y * 0.5f, p.z};
+  scene::Scene scene = facing_camera({square(0, 0), above}, {colored({1, 1, 1})});
+  scene.sky.reset();
+  scene::Light light;
+  light.kind = scene::Light::Kind::directional;
+  scene.lights = {light};
+  scene::Node sun;
+  sun.light = 0;
+  sun.rotation = glm::angleAxis(0.7f, glm::vec3(0, 1, 0));
+  scene.nodes.push_back(sun);
+  for (scene::Node& node : scene.nodes) node.translation.x += far;
+  return scene;
+}
+
+TEST_P(Pictures, HaveTheSameShadowsFarFromTheOrigin) {
+  const image::Image near = render(square_over_square(0), 96), far = render(square_over_square(4096), 96);
+  uint32_t dark = 0, different = 0;
+  for (size_t i = 0; i < near.pixels(); ++i) {
+    const bool lit = near.find("R")->values[i] > 0;
+    if (near.find("A")->values[i] > 0 && !lit) ++dark;
+    if (lit != (far.find("R")->values[i] > 0)) ++different;
+  }
+  EXPECT_GT(dark, 60u) << "there is no shadow to compare";
+  EXPECT_LT(different, dark / 10);
+}
+
+TEST_P(Pictures, OfAConvexBodyHaveNoShadowOfItsOwn) {
+  for (const float scale : {1e-8f, 1.0f, 1e10f}) {
+    scene::Scene scene = square_over_square(0);
+    scene.meshes.resize(1);
+    scene.nodes.erase(scene.nodes.begin() + 1);
+    for (glm::vec3& p : scene.meshes[0].positions) p *= scale;
+    scene.cameras[0].xmag = scene.cameras[0].ymag = 1.5f * scale;
+    scene.nodes[1].translation.z = 3 * scale;
+    const image::Image image = render(scene, 32);
+    uint32_t lit = 0;
+    for (const float red_of : image.find("R")->values) lit += red_of > 0 ? 1 : 0;
+    EXPECT_EQ(value(image, "A", 16, 16), 1) << scale;
+    uint32_t covered = 0;
+    for (const float alpha : image.find("A")->values) covered += alpha > 0 ? 1 : 0;
+    EXPECT_EQ(lit, covered) << scale;
+    EXPECT_GT(covered, 400u) << scale;
+  }
+}
+
+TEST_P(Pictures, RefuseACameraWithoutSizeAndVerticesOutOfRange) {
+  scene::Scene flat = facing_camera({square(0, 0)}, {colored(red)});
+  flat.nodes.back().scale = {0, 0, 0};
+  EXPECT_THROW(render(flat), Error);
+  for (const float scale : {3e11f, 1e-10f}) {
+    scene::Scene scene = facing_camera({square(0, 0)}, {colored(red)});
+    scene.nodes[0].scale = {scale, scale, scale};
+    EXPECT_THROW(render(scene), Error) << scale;
+  }
+  scene::Scene morphed = facing_camera({square(0, 0)}, {colored(red)});
+  scene::MorphTarget target;
+  target.vertices = {0};
+  target.positions = {{3, 0, 0}};
+  morphed.meshes[0].targets = {target};
+  morphed.meshes[0].weights = {3e38f};
+  EXPECT_THROW(render(morphed), Error);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Pictures, testing::ValuesIn(device_names()),
+                         [](const auto& each) { return each.param; });
+
+// Every pass of the CPU that is compiled once a vector width, by what comes out in the end.
+TEST(VectorWidths, GiveTheSamePictures) {
+  std::vector<std::string> scenes = {"builtin:tiny"};
+  if (const auto file = data_file("RobotExpressive.glb")) scenes.push_back(*file);
+  for (const std::string& name : scenes) {
+    const ReadyScene ready(name);
+    const auto render = [&] {
+      const auto backend = cpu_fallback::make_cpu_backend({});
+      return picture(*backend, ready, 0.4f, settings_of(64));
+    };
+    const image::Image expected = render();
+    int widths = 0;
+    for (int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+      hwy::SetSupportedTargetsForTest(rest & -rest);
+      const image::Image image = render();
+      ASSERT_EQ(image.channels.size(), expected.channels.size());
+      for (size_t c = 0; c < image.channels.size(); ++c) {
+        EXPECT_EQ(image.channels[c].values, expected.channels[c].values)
+            << image.channels[c].name << " at " << hwy::TargetName(rest & -rest);
+        EXPECT_EQ(image.channels[c].ids, expected.channels[c].ids);
+      }
+      ++widths;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    EXPECT_GE(widths, 2);
+  }
+}
+
+}  // namespace
+}  // namespace lodestone::test
