@@ -5,6 +5,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 #include "lodestone/scene/gltf_convert.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -60,7 +61,7 @@ class AnimationConverter {
     if (path == "weights") return Channel::Path::weights;
     log::warn_once(reader_.file() + " animation path " + path,
                    fmt::format("{}: {}: what it moves ('{}') is not known; the channel is ignored",
-                               reader_.file(), use, path.substr(0, 40)));
+                               reader_.file(), use, printable(path)));
     return {};
   }
 
@@ -69,7 +70,7 @@ class AnimationConverter {
     if (name == "STEP") return Channel::Interpolation::step;
     if (name == "CUBICSPLINE") return Channel::Interpolation::cubic_spline;
     fail_input(reader_.file(), "{}: interpolation '{}' does not exist; export it again", use,
-               name.substr(0, 40));
+               printable(name));
   }
 
   void read_keys(const tinygltf::AnimationSampler& sampler, const std::string& use, Channel& to) const {

@@ -4,6 +4,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/scene/gltf_convert.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -40,7 +41,7 @@ Light::Kind light_kind(const AccessorReader& reader, const std::string& type, co
   if (type == "point") return Light::Kind::point;
   if (type == "spot") return Light::Kind::spot;
   fail_input(reader.file(), "{}: a light of type '{}' does not exist; export it again", label,
-             type.substr(0, 40));
+             printable(type));
 }
 
 Light convert_light(const AccessorReader& reader, size_t index) {
@@ -61,7 +62,9 @@ Light convert_light(const AccessorReader& reader, size_t index) {
     to.inner_cone = gltf_float(reader, from.spot.innerConeAngle, label + ", innerConeAngle");
     to.outer_cone = gltf_float(reader, from.spot.outerConeAngle, label + ", outerConeAngle");
     constexpr float right_angle = 1.5707964f;
-    if (!(0 <= to.inner_cone && to.inner_cone < to.outer_cone && to.outer_cone <= right_angle)) {
+    // They should differ, but exporters write a hard edge as two equal angles.
+    if (!(0 <= to.inner_cone && to.inner_cone <= to.outer_cone && to.outer_cone > 0 &&
+          to.outer_cone <= right_angle)) {
       fail_input(reader.file(), "{}: cone angles {} and {} must ascend between 0 and pi/2; export it again",
                  label, to.inner_cone, to.outer_cone);
     }

@@ -6,6 +6,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 #include "lodestone/scene/gltf_convert.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -76,7 +77,7 @@ class MaterialConverter {
                                  reader_.file(), label_));
     } else {
       fail_input(reader_.file(), "{}: alphaMode '{}' does not exist; export it again", label_,
-                 from.alphaMode.substr(0, 40));
+                 printable(from.alphaMode));
     }
   }
 

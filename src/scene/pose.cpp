@@ -2,7 +2,6 @@
 #include "lodestone/scene/pose.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -10,16 +9,12 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/scene/interpolate.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
 
 constexpr size_t max_names_shown = 40;
-
-bool equal_ignoring_case(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 std::optional<uint32_t> parse_number(const std::string& text) {
   uint32_t number = 0;
@@ -31,7 +26,8 @@ std::optional<uint32_t> parse_number(const std::string& text) {
 
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
-  for (size_t i = 0; i < std::min(names.size(), max_names_shown); ++i) list += (i > 0 ? ", " : "") + names[i];
+  for (size_t i = 0; i < std::min(names.size(), max_names_shown); ++i)
+    list += (i > 0 ? ", " : "") + shown(names[i]);
   if (names.size() > max_names_shown) list += fmt::format(" and {} more", names.size() - max_names_shown);
   return list;
 }

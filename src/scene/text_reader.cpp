@@ -124,6 +124,20 @@ int64_t TextReader::to_integer(std::string_view word, const char* what) const {
   return value;
 }
 
+std::string shown(std::string_view name, size_t longest) {
+  size_t end = std::min(longest, name.size());
+  // Not between the bytes of one character of UTF-8.
+  if (end < name.size()) {
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+  }
+  std::string text(name.substr(0, end));
+  constexpr char del = 127;
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == del) c = '?';
+  }
+  return end < name.size() ? text + "..." : text;
+}
+
 std::string printable(std::string_view text) {
   std::string shown(text.substr(0, 40));
   for (char& c : shown) {

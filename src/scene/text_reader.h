@@ -67,6 +67,10 @@ class TextReader {
   bool continued_lines_;
 };
 
+// A name from a file for a message: cut to `longest` bytes, control characters shown as `?`, so that it stays
+// on its line and does nothing to the terminal.
+std::string shown(std::string_view name, size_t longest = 80);
+
 // Text of a hostile file for a message: cut to 40 characters, anything but printable ASCII shown as `?`.
 std::string printable(std::string_view text);
 

@@ -5,6 +5,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/scene/scene.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -69,7 +70,8 @@ class Validator {
 
  private:
   static std::string label(const char* kind, size_t index, const std::string& name) {
-    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+    return name.empty() ? fmt::format("{} {}", kind, index)
+                        : fmt::format("{} {} '{}'", kind, index, shown(name));
   }
 
   void check(bool good, const std::string& where, const char* what) const {
@@ -108,7 +110,7 @@ class Validator {
     grids(where, m);
     check(m.weights.size() == m.targets.size(), where, "not one default weight a morph target");
     check_finite(m.weights, where, "a morph weight");
-    for (const MorphTarget& t : m.targets) target(where + ", morph target '" + t.name + "'", t, count);
+    for (const MorphTarget& t : m.targets) target(where + ", morph target '" + shown(t.name) + "'", t, count);
     influences(where, m);
   }
 
