@@ -35,6 +35,16 @@ glm::vec3 unit_or_zero(const glm::dvec3& v) {
 
 }  // namespace
 
+float decode_srgb(float encoded) {
+  const double value = std::clamp(double(encoded), 0.0, 1.0);
+  return static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+}
+
+glm::vec3 facet_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::dvec3 origin(a);
+  return unit_or_zero(glm::cross(glm::dvec3(b) - origin, glm::dvec3(c) - origin));
+}
+
 std::vector<glm::vec3> smooth_normals(std::span<const glm::vec3> positions,
                                       std::span<const glm::uvec3> triangles) {
   const std::vector<uint32_t> joined = join_by_position(positions);

@@ -10,6 +10,12 @@
 
 namespace lodestone::scene {
 
+// A colour of a file, encoded as sRGB (IEC 61966-2-1), as a linear one; cut to 0 to 1.
+float decode_srgb(float encoded);
+
+// The unit normal of a triangle, or zero where it has no area.
+glm::vec3 facet_normal(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
 // Smooth unit normals, one a position: the sum of the normals of the triangles around a vertex, weighted by
 // their areas. Vertices at equal positions count as one, so that seams of texture coordinates do not show.
 // (0, 0, 1) where a vertex has no triangle with an area. Every index must be less than positions.size().

@@ -52,6 +52,7 @@ class ObjParser {
     const std::string_view keyword = reader_.word();
     if (keyword == "v") {
       positions_.push_back(parse_vector("a coordinate of v"));
+      parse_color();
       check_count(positions_.size());
     } else if (keyword == "vt") {
       texcoords_.push_back(parse_texcoord());
@@ -83,6 +84,20 @@ class ObjParser {
   glm::vec3 parse_vector(const char* what) {
     const float x = reader_.read_float(what), y = reader_.read_float(what), z = reader_.read_float(what);
     return {x, y, z};
+  }
+
+  // `x y z r g b`, as scanning and sculpting tools write it: encoded as sRGB, 0 to 1. `x y z w` has a weight,
+  // which only curves use.
+  void parse_color() {
+    const std::string_view first = reader_.word(), second = reader_.word();
+    if (second.empty() || first.front() == '#' || second.front() == '#') return;
+    const char* what = "a colour of v";
+    glm::vec3 color;
+    color.r = decode_srgb(reader_.to_float(first, what));
+    color.g = decode_srgb(reader_.to_float(second, what));
+    color.b = decode_srgb(reader_.read_float(what));
+    colors_.resize(positions_.size(), glm::vec4(1));
+    colors_.back() = glm::vec4(color, 1);
   }
 
   // `u [v [w]]`; v counts from the bottom of the image and is turned over.
@@ -193,6 +208,11 @@ class ObjParser {
       has_texcoords |= texcoord != none;
       has_normals |= normal != none;
     }
+    if (!colors_.empty()) {
+      colors_.resize(positions_.size(), glm::vec4(1));
+      mesh_.colors.reserve(corners.size());
+      for (const Corner& corner : corners) mesh_.colors.push_back(colors_[corner[0]]);
+    }
     if (has_texcoords) {
       mesh_.texcoords[0].reserve(corners.size());
       for (const Corner& corner : corners) {
@@ -213,6 +233,7 @@ class ObjParser {
   Mesh& mesh_;
   std::vector<glm::vec3> positions_, normals_;
   std::vector<glm::vec2> texcoords_;
+  std::vector<glm::vec4> colors_;       // linear; empty, or as many as positions up to the last that has one
   FirstUse<3> corners_;                 // the mesh's vertices
   std::vector<uint64_t> corner_lines_;  // where each is first used
   uint32_t material_ = none;

@@ -26,8 +26,7 @@ float roughness_of_exponent(float exponent) {
   return std::sqrt(std::sqrt(2.0f / (std::max(exponent, 0.0f) + 2.0f)));
 }
 
-// So many unknown materials are warned of; a file may name millions.
-constexpr size_t max_unknown_named = 10;
+constexpr size_t max_warnings = 10;
 
 // Number of values behind an option of a texture statement: as few as `least`, as many as `most`.
 struct MapOption {
@@ -71,8 +70,8 @@ class MtlParser {
     if (is_new) {
       into_.materials_.emplace_back();
     } else {
-      log::warn(fmt::format("{}: line {}: material {} is there already; the first one counts", reader_.file(),
-                            reader_.line(), printable(name)));
+      into_.warn(fmt::format("{}: line {}: material {} is there already; the first one counts",
+                             reader_.file(), reader_.line(), printable(name)));
       ignored_ = {};
     }
     material_ = is_new ? &into_.materials_.back() : &ignored_;
@@ -98,19 +97,31 @@ class MtlParser {
       parse_map(material_->base_color_texture);
     } else if (keyword == "map_Ke") {
       parse_map(material_->emissive_texture);
-    } else if (keyword.starts_with("map_") || keyword == "d" || keyword == "Tr" || keyword == "norm" ||
-               equal_ignoring_case(keyword, "bump") || keyword == "disp" || keyword == "decal") {
-      log::note(
-          fmt::format("{}: line {}: {} is not used", reader_.file(), reader_.line(), printable(keyword)));
+    } else if (keyword == "d" || keyword == "Tr") {
+      check_opaque(keyword);
+    } else if (keyword.starts_with("map_") || keyword == "norm" || equal_ignoring_case(keyword, "bump") ||
+               keyword == "disp" || keyword == "decal") {
+      into_.warn_once(keyword, fmt::format("{}: line {}: {} is not used", reader_.file(), reader_.line(),
+                                           printable(keyword)));
     }
+  }
+
+  // `d opacity`, `d -halo opacity` or `Tr transparency`.
+  void check_opaque(std::string_view keyword) {
+    std::string_view word = reader_.word();
+    if (word == "-halo") word = reader_.word();
+    const float value = reader_.to_float(word, keyword == "d" ? "d" : "Tr");
+    if (keyword == "d" ? value >= 1 : value <= 0) return;
+    into_.warn_once("d", fmt::format("{}: line {}: material {} is transparent, but drawn opaque",
+                                     reader_.file(), reader_.line(), printable(material_->name)));
   }
 
   // `r g b`, or `r` alone for grey.
   glm::vec3 parse_color(const char* what) {
     const std::string_view first = reader_.word();
     if (first == "spectral" || first == "xyz") {
-      log::warn(fmt::format("{}: line {}: {} is given as {} and taken as white; give it as r g b",
-                            reader_.file(), reader_.line(), what, first));
+      into_.warn(fmt::format("{}: line {}: {} is given as {} and taken as white; give it as r g b",
+                             reader_.file(), reader_.line(), what, first));
       return glm::vec3(1);
     }
     glm::vec3 color(reader_.to_float(first, what));
@@ -173,7 +184,7 @@ void ObjMaterials::read_library(const std::string& name) {
   try {
     path = folder_.find(name);
   } catch (const Error& error) {
-    log::warn(fmt::format("{}; its materials are left out", error.what()));
+    warn(fmt::format("{}; its materials are left out", error.what()));
     misses_library_ = true;
     return;
   }
@@ -185,28 +196,39 @@ uint32_t ObjMaterials::find(std::string_view name) {
   const auto found = materials_by_name_.find(name);
   if (found != materials_by_name_.end()) return found->second;
   // One message about a missing library says enough.
-  if (!misses_library_ && unknown_.size() < max_unknown_named && unknown_.emplace(name).second) {
-    log::warn(fmt::format("{}: no material library has the material {}; its faces are left without",
-                          obj_file_, printable(name)));
+  if (!misses_library_ && warnings_ <= max_warnings && unknown_.emplace(name).second) {
+    warn(fmt::format("{}: no material library has the material {}; its faces are left without", obj_file_,
+                     printable(name)));
   }
   return none;
 }
 
 uint32_t ObjMaterials::image(const std::string& name) {
+  std::filesystem::path path;
   try {
-    const std::filesystem::path path = folder_.find(name);
-    const auto [entry, is_new] = images_by_path_.emplace(path, none);
-    if (is_new) {
-      Image decoded = decode_image_file(path);
-      decoded.name = name;
-      entry->second = static_cast<uint32_t>(images_.size());
-      images_.push_back(std::move(decoded));
-    }
-    return entry->second;
+    path = folder_.find(name);
   } catch (const Error& error) {
-    log::warn(fmt::format("{}; the texture is left out", error.what()));
+    warn(fmt::format("{}; the texture is left out", error.what()));
     return none;
   }
+  const auto [entry, is_new] = images_by_path_.emplace(path, none);
+  if (is_new) {
+    Image decoded = decode_image_file(path);
+    decoded.name = name;
+    entry->second = static_cast<uint32_t>(images_.size());
+    images_.push_back(std::move(decoded));
+  }
+  return entry->second;
+}
+
+void ObjMaterials::warn(const std::string& message) {
+  if (warnings_ > max_warnings) return;
+  const bool last = warnings_++ == max_warnings;
+  log::warn(last ? obj_file_ + ": further warnings about its materials are left out" : message);
+}
+
+void ObjMaterials::warn_once(std::string_view keyword, const std::string& message) {
+  if (keywords_.size() <= max_warnings && keywords_.emplace(keyword).second) warn(message);
 }
 
 void ObjMaterials::move_to(Scene& scene) {

@@ -5,7 +5,6 @@
 //
 // Integer colours are taken as sRGB-encoded, as scanning tools write them, floating-point ones as linear.
 // Texture coordinates count from the bottom of the image and are turned over.
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -64,12 +63,6 @@ constexpr std::array slot_names{
     SlotName{"texture_t", v},
 };
 
-// IEC 61966-2-1.
-float linear_of_srgb(double encoded) {
-  const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-  return static_cast<float>(linear);
-}
-
 // How to read the records of element `vertex`.
 class VertexPlan {
  public:
@@ -98,7 +91,7 @@ class VertexPlan {
       const Type type = types_[red + c];
       const double scaled = values[red + c] / full_scale(type);
       const bool encoded = type != Type::float32 && type != Type::float64;
-      result[c] = encoded ? linear_of_srgb(std::clamp(scaled, 0.0, 1.0)) : static_cast<float>(scaled);
+      result[c] = encoded ? decode_srgb(static_cast<float>(scaled)) : static_cast<float>(scaled);
     }
     if (has_[alpha]) result.a = static_cast<float>(values[alpha] / full_scale(types_[alpha]));
     return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -140,10 +141,37 @@ TEST_F(ObjMaterial, WithoutItsLibraryTheGeometryIsLoaded) {
 }
 
 TEST_F(ObjMaterial, WithoutItsImageTheMaterialIsLoaded) {
-  folder_.write("text.png", "no image");
-  EXPECT_EQ(material("Kd 0 1 0\nmap_Kd gone.png\n").base_color_texture.image, none);
-  EXPECT_EQ(material("Kd 0 1 0\nmap_Kd text.png\n").base_color, glm::vec4(0, 1, 0, 1));
+  const Material green = material("Kd 0 1 0\nmap_Kd gone.png\n");
+  EXPECT_EQ(green.base_color_texture.image, none);
+  EXPECT_EQ(green.base_color, glm::vec4(0, 1, 0, 1));
   EXPECT_EQ(material("map_Kd\n").base_color_texture.image, none);
+}
+
+TEST_F(ObjMaterial, ADamagedImageIsAnError) {
+  folder_.write("text.png", "no image");
+  folder_.write("m.mtl", "newmtl a\nmap_Kd text.png\n");
+  EXPECT_THROW(load_obj(folder_.write("m.obj", model("mtllib m.mtl\n", {"a"}))), Error);
+}
+
+TEST_F(ObjMaterial, WhatIsNotDrawnIsWarnedOfOnce) {
+  testing::internal::CaptureStderr();
+  material("d 0.5\nd 0.25\nTr 1\nmap_d leaf.png\nmap_d leaf.png\n");
+  const std::string warnings = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(warnings.begin(), warnings.end(), '\n'), 2) << warnings;
+  EXPECT_NE(warnings.find("line 2: material only is transparent"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("line 5: map_d is not used"), std::string::npos) << warnings;
+  testing::internal::CaptureStderr();
+  material("d 1\nTr 0\nd -halo 1\n");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(ObjMaterial, WarningsAreFewHoweverMuchIsMissing) {
+  std::string libraries;
+  for (int i = 0; i < 1000; ++i) libraries += "mtllib gone" + std::to_string(i) + ".mtl\n";
+  testing::internal::CaptureStderr();
+  load_valid(folder_.write("m.obj", model(libraries, {"a"})));
+  const std::string warnings = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(warnings.begin(), warnings.end(), '\n'), 11) << warnings;
 }
 
 TEST_F(ObjMaterial, LibrariesOutsideTheFolderAreNotRead) {

@@ -27,6 +27,16 @@ TEST_F(Obj, BecomesOneMeshNamedAfterTheFile) {
   EXPECT_TRUE(mesh.texcoords[0].empty());
 }
 
+TEST_F(Obj, ColoursBehindPositionsAreDecoded) {
+  const Mesh mesh = load("v 0 0 0 1 0 0.5\nv 1 0 0 0 1 0 # green\nv 0 1 0 1\nv 1 1 0\nf 1 2 3\nf 3 2 4\n");
+  ASSERT_EQ(mesh.colors.size(), 4u);
+  EXPECT_EQ(mesh.colors[1], glm::vec4(0, 1, 0, 1));
+  EXPECT_NEAR(mesh.colors[0].b, 0.2140411f, 1e-6) << "sRGB";
+  EXPECT_EQ(mesh.colors[2], glm::vec4(1)) << "a weight is no colour";
+  EXPECT_EQ(mesh.colors[3], glm::vec4(1));
+  EXPECT_TRUE(load(square + "f 1 2 3\n").colors.empty());
+}
+
 TEST_F(Obj, PolygonsBecomeFansAroundTheirFirstCorner) {
   const Mesh mesh = load("v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 2 0\nv -1 1 0\nf 1 2 3 4 5\nf 5 4 1\n");
   EXPECT_EQ(mesh.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {4, 3, 0}}));
