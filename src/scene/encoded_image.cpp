@@ -41,6 +41,28 @@ uint32_t checksum(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
+// The first chunk (11.2.2): type, width, height, bits a sample, kind of colour, three methods.
+void check_png_header(std::span<const std::byte> chunk, const std::string& subject) {
+  constexpr uint32_t type = 0x49484452, longest_side = 0x7fffffff;
+  constexpr size_t size = 17;
+  if (chunk.size() != size || big_endian(chunk, 0, 4) != type) {
+    fail_input(subject, "is a PNG without a header; copy or export it again");
+  }
+  const uint32_t width = big_endian(chunk, 4, 4), height = big_endian(chunk, 8, 4);
+  const uint32_t bits = big_endian(chunk, 12, 1), color = big_endian(chunk, 13, 1);
+  const bool grey = color == 0, palette = color == 3,
+             any = grey || palette || color == 2 || color == 4 || color == 6;
+  const bool good_bits =
+      bits == 8 || (bits == 16 && !palette) || ((grey || palette) && (bits == 1 || bits == 2 || bits == 4));
+  const bool good_methods = big_endian(chunk, 14, 2) == 0 && big_endian(chunk, 16, 1) <= 1;
+  if (!any || !good_bits || !good_methods || width - 1 >= longest_side || height - 1 >= longest_side) {
+    fail_input(subject,
+               "is a PNG of {} x {} texels, {} bits and colour type {}, which PNG does not have; export "
+               "it again",
+               width, height, bits, color);
+  }
+}
+
 void check_png(std::span<const std::byte> bytes, const std::string& subject) {
   constexpr size_t frame = 12;                 // length and type before a chunk's data, checksum behind
   constexpr uint32_t last_chunk = 0x49454e44;  // IEND
@@ -54,6 +76,7 @@ void check_png(std::span<const std::byte> bytes, const std::string& subject) {
       fail_input(subject, "is a PNG that is damaged between bytes {} and {}; copy or export it again", at,
                  at + frame + length);
     }
+    if (at == png_signature.size()) check_png_header(bytes.subspan(at + 4, length + 4), subject);
     if (big_endian(bytes, at + 4, 4) == last_chunk) return;
     at += frame + length;
   }

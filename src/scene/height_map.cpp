@@ -14,6 +14,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
 #include "lodestone/scene/decode_image.h"
+#include "lodestone/scene/encoded_image.h"
 #include "lodestone/scene/exr_outline.h"
 #include "lodestone/scene/height_field.h"
 #include "lodestone/scene/load.h"
@@ -117,6 +118,7 @@ Samples read_samples(const std::string& file) {
     const std::vector<std::byte> contents = read_file(file, max_file_bytes);
     format = format_of(as_text(contents), file);
     file_bytes = contents.size();
+    check_encoded_image(contents, file);
     if (format == "openexr") {
       const ExrOutline outline = read_exr_outline(file, as_text(contents));
       check_size(outline.width, outline.height, outline.texel_bytes, file_bytes, file);
