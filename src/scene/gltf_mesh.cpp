@@ -7,6 +7,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
+#include "lodestone/scene/flat_normals.h"
 #include "lodestone/scene/gltf_convert.h"
 #include "lodestone/scene/mesh_tools.h"
 
@@ -65,6 +66,11 @@ class MeshConverter {
     find_primitives();
     name_targets();
     for (size_t i : primitives_) add_primitive(i);
+    // Without normals a primitive has facets, and its tangents do not count (3.7.2.1).
+    if (std::any_of(flat_.begin(), flat_.end(), [](uint8_t flat) { return flat != 0; })) {
+      make_flat(mesh_, flat_, [&](uint64_t bytes) { reader_.charge(bytes, 1, label_); });
+      if (mesh_.positions.size() >= none) fail_too_many();
+    }
     complete_normals(mesh_);
     complete_tangents();
     return std::move(mesh_);
@@ -95,9 +101,16 @@ class MeshConverter {
     }
   }
 
+  [[noreturn]] void fail_too_many() const {
+    fail_input(reader_.file(), "{}: more than {} vertices; split the mesh", label_, none - 1);
+  }
+
+  bool has(size_t primitive, const char* attribute) const {
+    return source_.primitives[primitive].attributes.contains(attribute);
+  }
+
   bool any_has(const char* attribute) const {
-    return std::any_of(primitives_.begin(), primitives_.end(),
-                       [&](size_t i) { return source_.primitives[i].attributes.contains(attribute); });
+    return std::any_of(primitives_.begin(), primitives_.end(), [&](size_t i) { return has(i, attribute); });
   }
 
   void name_targets() {
@@ -106,6 +119,8 @@ class MeshConverter {
     mesh_.targets.resize(count);
     for (size_t i = 0; i < count; ++i) mesh_.targets[i].name = fmt::format("target{}", i);
     const tinygltf::Value* names = gltf_member(source_.extras, "targetNames");
+    // Where VRM has them.
+    if (names == nullptr) names = gltf_member(source_.primitives[primitives_[0]].extras, "targetNames");
     if (names != nullptr && names->IsArray() && names->ArrayLen() == count) {
       for (size_t i = 0; i < count; ++i) {
         const tinygltf::Value& name = names->Get(int(i));
@@ -156,6 +171,7 @@ class MeshConverter {
       fail_input(reader_.file(), "{}: more than {} triangles; split the mesh", label_, none - 1);
     }
     mesh_.parts.push_back({uint32_t(mesh_.triangles.size()), uint32_t(triangles.size()), material});
+    flat_.resize(mesh_.triangles.size() + triangles.size(), has(i, "NORMAL") ? 0 : 1);
     mesh_.triangles.insert(mesh_.triangles.end(), triangles.begin(), triangles.end());
   }
 
@@ -166,9 +182,7 @@ class MeshConverter {
     const std::vector<glm::vec3> positions =
         reader_.vec3s(primitive.attributes.at("POSITION"), where(i) + ", POSITION");
     const VertexRange range{uint32_t(mesh_.positions.size()), positions.size()};
-    if (mesh_.positions.size() + positions.size() >= none) {
-      fail_input(reader_.file(), "{}: more than {} vertices; split the mesh", label_, none - 1);
-    }
+    if (mesh_.positions.size() + positions.size() >= none) fail_too_many();
     mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
     add_attributes(i, range);
     append_morph_targets(reader_, primitive, range.first, range.count, where(i), mesh_.targets);
@@ -218,7 +232,7 @@ class MeshConverter {
     if (mesh_.tangents.empty()) return;
     for (size_t i : primitives_) {
       const tinygltf::Primitive& primitive = source_.primitives[i];
-      if (primitive.attributes.contains("TANGENT") || !needs_tangents(primitive)) continue;
+      if ((has(i, "TANGENT") && has(i, "NORMAL")) || !needs_tangents(primitive)) continue;
       mesh_.tangents.clear();
       return;
     }
@@ -237,6 +251,7 @@ class MeshConverter {
   std::string label_;
   std::vector<size_t> primitives_;
   std::map<VertexSource, VertexRange> ranges_;
+  std::vector<uint8_t> flat_;  // of every triangle, whether it is a facet
   Mesh mesh_;
 };
 

@@ -5,6 +5,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 #include "lodestone/scene/gltf_convert.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -21,6 +22,17 @@ Deltas read_deltas(const AccessorReader& reader, const std::map<std::string, int
                reader.count(found->second, use), vertex_count);
   }
   return reader.nonzero_vec3s(found->second, use);
+}
+
+void warn_of_other_deltas(const AccessorReader& reader, const std::map<std::string, int>& attributes,
+                          const std::string& where) {
+  for (const auto& [name, accessor] : attributes) {
+    if (name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name.starts_with('_')) continue;
+    log::warn_once(
+        reader.file() + " morphs " + name,
+        fmt::format("{}: {}: its deltas of {} are ignored; only POSITION, NORMAL and TANGENT are read",
+                    reader.file(), where, shown(name)));
+  }
 }
 
 // The value for `vertex` where the list has one at `at`, which then moves on; else zero.
@@ -95,8 +107,11 @@ void append_morph_targets(const AccessorReader& reader, const tinygltf::Primitiv
   for (size_t i = 0; i < primitive.targets.size(); ++i) {
     const std::string target = fmt::format("{}, morph target {}", where, i);
     const std::map<std::string, int>& attributes = primitive.targets[i];
+    warn_of_other_deltas(reader, attributes, target);
+    // Deltas of normals that are not there mean nothing (3.7.2.2).
+    const bool has_normals = primitive.attributes.contains("NORMAL");
     append(read_deltas(reader, attributes, "POSITION", vertex_count, target),
-           read_deltas(reader, attributes, "NORMAL", vertex_count, target),
+           has_normals ? read_deltas(reader, attributes, "NORMAL", vertex_count, target) : Deltas(),
            read_deltas(reader, attributes, "TANGENT", vertex_count, target), first_vertex, targets[i]);
   }
 }

@@ -55,6 +55,16 @@ int GltfBuilder::triangle_mesh() {
   return mesh;
 }
 
+void GltfBuilder::give_normals(int mesh) {
+  for (json& primitive : root["meshes"].at(size_t(mesh)).at("primitives")) {
+    const size_t positions = primitive["attributes"]["POSITION"];
+    const size_t count = root["accessors"].at(positions)["count"];
+    std::vector<float> normals(3 * count, 0.0f);
+    for (size_t i = 0; i < count; ++i) normals[3 * i + 2] = 1;
+    primitive["attributes"]["NORMAL"] = floats(normals, "VEC3");
+  }
+}
+
 json GltfBuilder::with_buffer() const {
   json j = root;
   if (!binary.empty() && !j.contains("buffers")) j["buffers"] = {{{"byteLength", binary.size()}}};

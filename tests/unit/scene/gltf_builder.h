@@ -62,6 +62,8 @@ class GltfBuilder {
   // A mesh of one primitive with the triangle (0,0,0) (1,0,0) (0,1,0) and a node that draws it; returns the
   // mesh.
   int triangle_mesh();
+  // Gives every primitive of the mesh the normal (0, 0, 1); without one it would have facets.
+  void give_normals(int mesh);
   json& primitive(int mesh, int index = 0) {
     return root["meshes"].at(size_t(mesh)).at("primitives").at(size_t(index));
   }

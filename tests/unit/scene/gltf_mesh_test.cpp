@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "gltf_builder.h"
 
 namespace lodestone::scene {
@@ -13,6 +15,7 @@ void add_primitive(GltfBuilder& gltf, int mode, const std::vector<uint16_t>& cor
   if (!corners.empty()) primitive["indices"] = gltf.indices(corners);
   gltf.append("meshes", {{"primitives", {primitive}}});
   gltf.append("nodes", {{"mesh", 0}});
+  gltf.give_normals(0);
 }
 
 TEST(GltfMesh, StripTurnsEverySecondTriangle) {
@@ -90,6 +93,7 @@ TEST(GltfMesh, ConcatenatesPrimitivesAsParts) {
                  {"indices", gltf.indices({0, 1, 2, 0, 2, 3})},
                  {"material", 1}};
   gltf.root["meshes"][size_t(mesh)]["primitives"].push_back(second);
+  gltf.give_normals(mesh);
   const Mesh loaded = gltf.load().meshes.at(0);
   EXPECT_EQ(loaded.positions.size(), 8u);
   const std::vector<glm::uvec3> expected = {{0, 1, 2}, {3, 4, 5}, {3, 5, 6}};
@@ -104,8 +108,9 @@ TEST(GltfMesh, ConcatenatesPrimitivesAsParts) {
 TEST(GltfMesh, PrimitivesWithTheSameAttributesShareVertices) {
   GltfBuilder gltf;
   const int positions = gltf.floats(five_points, "VEC3");
-  const json one = {{"attributes", {{"POSITION", positions}}}, {"indices", gltf.indices({0, 1, 2})}};
-  const json two = {{"attributes", {{"POSITION", positions}}}, {"indices", gltf.indices({0, 2, 3})}};
+  const json attributes = {{"POSITION", positions}, {"NORMAL", positions}};
+  const json one = {{"attributes", attributes}, {"indices", gltf.indices({0, 1, 2})}};
+  const json two = {{"attributes", attributes}, {"indices", gltf.indices({0, 2, 3})}};
   gltf.append("meshes", {{"primitives", {one, two}}});
   gltf.append("nodes", {{"mesh", 0}});
   const Mesh mesh = gltf.load().meshes.at(0);
@@ -160,18 +165,88 @@ TEST(GltfMesh, DropsTangentsWhereANormalMappedPrimitiveHasNone) {
   }
 }
 
-TEST(GltfMesh, MissingNormalsAreSmoothAcrossPrimitives) {
+// Two walls of a roof that share the ridge, its first two vertices.
+struct Roof {
   GltfBuilder gltf;
-  // Two walls of a roof that meet along the x axis, as two primitives.
-  const json left = {{"attributes", {{"POSITION", gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, -1}, "VEC3")}}}};
-  const json right = {{"attributes", {{"POSITION", gltf.floats({1, 0, 0, 0, 0, 0, 0, -1, -1}, "VEC3")}}}};
-  gltf.append("meshes", {{"primitives", {left, right}}});
-  gltf.append("nodes", {{"mesh", 0}});
-  const Mesh mesh = gltf.load().meshes.at(0);
-  EXPECT_NEAR(glm::distance(mesh.normals.at(0), glm::vec3(0, 0, 1)), 0, 1e-6) << "of the ridge";
-  EXPECT_NEAR(glm::distance(mesh.normals.at(4), glm::vec3(0, 0, 1)), 0, 1e-6);
-  const float h = std::sqrt(0.5f);
-  EXPECT_NEAR(glm::distance(mesh.normals.at(2), glm::vec3(0, h, h)), 0, 1e-6) << "of one wall";
+  json primitive;
+  Roof() {
+    primitive["attributes"]["POSITION"] = gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, -1, 0, -1, -1}, "VEC3");
+    primitive["indices"] = gltf.indices({0, 1, 2, 1, 0, 3});
+    gltf.append("nodes", {{"mesh", 0}});
+  }
+  Mesh load() {
+    gltf.append("meshes", {{"primitives", {primitive}}});
+    return gltf.load().meshes.at(0);
+  }
+};
+
+const float half_root = std::sqrt(0.5f);
+
+TEST(GltfMesh, WithoutNormalsHasFacets) {
+  Roof roof;
+  roof.primitive["attributes"]["TEXCOORD_0"] = roof.gltf.floats({0, 0, 1, 0, 0, 1, 1, 1}, "VEC2");
+  const Mesh mesh = roof.load();
+  ASSERT_EQ(mesh.positions.size(), 6u) << "the ridge twice";
+  for (int corner = 0; corner < 3; ++corner) {
+    EXPECT_NEAR(glm::distance(mesh.normals[mesh.triangles[0][corner]], {0, half_root, half_root}), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(mesh.normals[mesh.triangles[1][corner]], {0, -half_root, half_root}), 0, 1e-6);
+  }
+  const glm::uvec3 second = mesh.triangles[1];
+  EXPECT_EQ(mesh.positions[second.x], glm::vec3(1, 0, 0));
+  EXPECT_EQ(mesh.positions[second.y], glm::vec3(0, 0, 0));
+  EXPECT_EQ(mesh.texcoords[0].at(second.x), glm::vec2(1, 0)) << "a copy has all that its vertex has";
+}
+
+TEST(GltfMesh, FacetsBendWithTheirMorphTargets) {
+  Roof roof;
+  // Lays the second wall down into the plane z = 0, by its own vertex alone.
+  roof.primitive["targets"] = {{{"POSITION", roof.gltf.floats({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, "VEC3")},
+                                {"NORMAL", roof.gltf.floats(std::vector<float>(12, 5), "VEC3")}}};
+  const Mesh mesh = roof.load();
+  const MorphTarget& target = mesh.targets.at(0);
+  ASSERT_EQ(target.vertices.size(), 3u) << "all corners of the one facet";
+  for (size_t i = 0; i < 3; ++i) {
+    const uint32_t vertex = target.vertices[i];
+    EXPECT_EQ(target.positions[i], mesh.positions[vertex].y == -1 ? glm::vec3(0, 0, 1) : glm::vec3(0));
+    EXPECT_NEAR(glm::distance(mesh.normals[vertex] + target.normals[i], {0, 0, 1}), 0, 1e-6);
+  }
+}
+
+TEST(GltfMesh, CornersOfFacetsKeepTheirSkinAndTheirDeltas) {
+  Roof roof;
+  roof.primitive["attributes"]["JOINTS_0"] =
+      roof.gltf.accessor<uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}, "VEC4", u8);
+  roof.primitive["attributes"]["WEIGHTS_0"] =
+      roof.gltf.floats({1, 0, 0, 0, 1, 0, 0, 0, 0.25f, 0.75f, 0, 0, 1, 0, 0, 0}, "VEC4");
+  // Moves the whole roof.
+  roof.primitive["targets"] = {
+      {{"POSITION", roof.gltf.floats({1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}, "VEC3")}}};
+  roof.gltf.append("nodes", {{"name", "joint"}});
+  roof.gltf.append("nodes", {{"name", "joint"}});
+  roof.gltf.append("skins", {{"joints", {1, 2}}});
+  roof.gltf.root["nodes"][0]["skin"] = 0;
+  const Mesh mesh = roof.load();
+  ASSERT_EQ(mesh.targets.at(0).vertices.size(), 6u);
+  for (size_t v = 0; v < 6; ++v) {
+    EXPECT_EQ(mesh.targets[0].positions[v], glm::vec3(1, 2, 3));
+    EXPECT_NEAR(glm::length(mesh.targets[0].normals[v]), 0, 1e-6) << "only moved";
+    const uint32_t first = mesh.first_influence[v], count = mesh.first_influence[v + 1] - first;
+    EXPECT_EQ(count, mesh.positions[v].y == 1 ? 2u : 1u);
+    if (mesh.positions[v].x == 1) {
+      EXPECT_EQ(mesh.influences[first].joint, 1u);
+    }
+  }
+}
+
+TEST(GltfMesh, FacetsAreNotMadeWithoutBound) {
+  // A thousand deltas at one vertex, which a hundred thousand triangles have.
+  Roof roof;
+  roof.primitive["indices"] = roof.gltf.indices(std::vector<uint16_t>(300000, 0));
+  const int delta = roof.gltf.floats({1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3");
+  for (int i = 0; i < 1000; ++i) roof.primitive["targets"].push_back({{"POSITION", delta}});
+  roof.gltf.append("meshes", {{"primitives", {roof.primitive}}});
+  const std::string message = expect_bad_input(roof.gltf.folder().write("s.glb", roof.gltf.glb()));
+  EXPECT_NE(message.find("more than a file of this size can mean"), std::string::npos) << message;
 }
 
 TEST(GltfMesh, IgnoresAttributesOfItsOwn) {

@@ -10,6 +10,7 @@ namespace {
 TEST(GltfMorph, KeepsOnlyVerticesThatMove) {
   GltfBuilder gltf;
   const int mesh = gltf.triangle_mesh();
+  gltf.give_normals(mesh);
   gltf.primitive(mesh)["targets"] = {{{"POSITION", gltf.floats({0, 0, 0, 0, 0, 0, 0, 0, 2}, "VEC3")}}};
   const Mesh loaded = gltf.load().meshes.at(0);
   ASSERT_EQ(loaded.targets.size(), 1u);
@@ -23,6 +24,7 @@ TEST(GltfMorph, KeepsOnlyVerticesThatMove) {
 TEST(GltfMorph, MergesDeltasOfPositionsNormalsAndTangents) {
   GltfBuilder gltf;
   const int mesh = gltf.triangle_mesh();
+  gltf.give_normals(mesh);
   gltf.primitive(mesh)["targets"] = {{{"POSITION", gltf.floats({0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC3")},
                                       {"NORMAL", gltf.floats({0, 2, 0, 0, 0, 0, 0, 0, 0}, "VEC3")},
                                       {"TANGENT", gltf.floats({0, 0, 0, 0, 0, 0, 0, 0, 3}, "VEC3")}}};
@@ -36,6 +38,7 @@ TEST(GltfMorph, MergesDeltasOfPositionsNormalsAndTangents) {
 TEST(GltfMorph, NormalsOfOneOfTwoPrimitivesArePaddedWithZeros) {
   GltfBuilder gltf;
   const int mesh = gltf.triangle_mesh();
+  gltf.give_normals(mesh);
   const int moved = gltf.floats({1, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3");
   json second = gltf.primitive(mesh);
   second["attributes"]["POSITION"] = gltf.floats({0, 0, 5, 1, 0, 5, 0, 1, 5}, "VEC3");
@@ -54,6 +57,7 @@ TEST(GltfMorph, NormalsOfOneOfTwoPrimitivesArePaddedWithZeros) {
 TEST(GltfMorph, ReadsSparseDeltasWithoutAViewAndDropsTheirZeros) {
   GltfBuilder gltf;
   const int mesh = gltf.triangle_mesh();
+  gltf.give_normals(mesh);
   const int deltas = gltf.append(
       "accessors", {{"componentType", f32},
                     {"count", 3},
@@ -108,6 +112,14 @@ TEST(GltfMorph, NamesComeFromExtrasOrFromTheNumber) {
   EXPECT_EQ(name_with({nullptr, "frown"}), "target1");
   EXPECT_EQ(name_with(7), "target1");
   EXPECT_EQ(name_with(nullptr), "target1");
+}
+
+TEST(GltfMorph, NamesMayStandAtThePrimitive) {
+  GltfBuilder gltf;
+  const int mesh = gltf.triangle_mesh();
+  gltf.primitive(mesh)["targets"] = {{{"POSITION", gltf.floats(std::vector<float>(9), "VEC3")}}};
+  gltf.primitive(mesh)["extras"] = {{"targetNames", {"smile"}}};
+  EXPECT_EQ(gltf.load().meshes.at(0).targets.at(0).name, "smile") << "as VRM has them";
 }
 
 // A skinned triangle: its node is 0, the joints follow.
