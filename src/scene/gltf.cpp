@@ -13,6 +13,7 @@
 #include "lodestone/scene/gltf_outline.h"
 #include "lodestone/scene/gltf_parse.h"
 #include "lodestone/scene/load.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -36,13 +37,12 @@ const char* remedy(const std::string& extension) {
 void check_extensions(const std::string& file, const GltfOutline& outline) {
   for (const std::string& extension : outline.extensions_required) {
     if (is_known(extension)) continue;
-    fail_input(file, "requires the extension {}, which is not read; {}", extension.substr(0, 80),
-               remedy(extension));
+    fail_input(file, "requires the extension {}, which is not read; {}", shown(extension), remedy(extension));
   }
   for (const std::string& extension : outline.extensions_used) {
     if (is_known(extension)) continue;
     log::warn_once("gltf extension " + extension,
-                   fmt::format("{}: uses the extension {}, which is ignored", file, extension.substr(0, 80)));
+                   fmt::format("{}: uses the extension {}, which is ignored", file, shown(extension)));
   }
 }
 
@@ -50,7 +50,7 @@ void check_extensions(const std::string& file, const GltfOutline& outline) {
 
 std::string gltf_label(const char* kind, size_t index, const std::string& name) {
   return name.empty() ? fmt::format("{} {}", kind, index)
-                      : fmt::format("{} {} '{}'", kind, index, name.substr(0, 80));
+                      : fmt::format("{} {} '{}'", kind, index, shown(name));
 }
 
 uint32_t gltf_index(const AccessorReader& reader, int index, size_t size, const std::string& use) {
@@ -84,7 +84,7 @@ Scene load_gltf(const std::filesystem::path& path) {
   const GltfOutline outline = outline_gltf(gltf);
   check_extensions(gltf.file, outline);
   ParsedGltf parsed = parse_gltf(gltf, outline);
-  const AccessorReader reader(parsed.model, gltf.file);
+  const AccessorReader reader(parsed.model, gltf.file, parsed.viewless);
 
   Scene scene;
   scene.name = gltf.file;

@@ -95,8 +95,8 @@ struct AccessorReader::Layout {
   size_t element_bytes() const { return components * component_bytes; }
 };
 
-AccessorReader::AccessorReader(const tinygltf::Model& model, std::string file)
-    : model_(model), file_(std::move(file)) {
+AccessorReader::AccessorReader(const tinygltf::Model& model, std::string file, std::set<uint32_t> viewless)
+    : model_(model), file_(std::move(file)), viewless_(std::move(viewless)) {
   uint64_t bytes = 0;
   for (const tinygltf::Buffer& buffer : model_.buffers) bytes += buffer.data.size();
   allowance_ = base_allowance + allowance_per_byte * bytes;
@@ -167,7 +167,7 @@ AccessorReader::Layout AccessorReader::layout(int index, const std::string& use)
                use, index, a.componentType);
   }
   if (found.count == 0) fail_input(file_, "{}: accessor {} is empty; export it again", use, index);
-  if (a.bufferView >= 0) {
+  if (a.bufferView >= 0 && !viewless_.contains(uint32_t(index))) {
     found.base = view_bytes(a.bufferView, a.byteOffset, found.count, found.element_bytes(),
                             found.component_bytes, &found.stride, use);
   }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct Entry {
 // together at most 64 MiB and 64 times the bytes of all buffers.
 class AccessorReader {
  public:
-  AccessorReader(const tinygltf::Model& model, std::string file);
+  // The elements of `viewless` accessors are zeros whatever their view.
+  AccessorReader(const tinygltf::Model& model, std::string file, std::set<uint32_t> viewless = {});
 
   const tinygltf::Model& model() const { return model_; }
   const std::string& file() const { return file_; }
@@ -63,6 +65,7 @@ class AccessorReader {
 
   const tinygltf::Model& model_;
   std::string file_;
+  std::set<uint32_t> viewless_;
   uint64_t allowance_ = 0;
   mutable uint64_t charged_ = 0;
 };

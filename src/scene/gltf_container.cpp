@@ -70,4 +70,28 @@ GltfContainer open_gltf(const std::filesystem::path& path) {
   return gltf;
 }
 
+std::string rebuild_glb(const std::string& json, std::span<const std::byte> binary_chunk) {
+  const size_t json_bytes = (json.size() + 3) / 4 * 4, binary_bytes = (binary_chunk.size() + 3) / 4 * 4;
+  std::string glb;
+  const auto append = [&](uint64_t number) {
+    const auto stored = static_cast<uint32_t>(number);
+    glb.append(reinterpret_cast<const char*>(&stored), sizeof stored);
+  };
+  const bool with_binary = !binary_chunk.empty();
+  append(magic_gltf);
+  append(2);
+  append(header_bytes + chunk_header_bytes + json_bytes +
+         (with_binary ? chunk_header_bytes + binary_bytes : 0));
+  append(json_bytes);
+  append(chunk_json);
+  glb += json;
+  glb.append(json_bytes - json.size(), ' ');
+  if (!with_binary) return glb;
+  append(binary_bytes);
+  append(chunk_binary);
+  glb.append(reinterpret_cast<const char*>(binary_chunk.data()), binary_chunk.size());
+  glb.append(binary_bytes - binary_chunk.size(), '\0');
+  return glb;
+}
+
 }  // namespace lodestone::scene

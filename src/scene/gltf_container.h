@@ -23,4 +23,7 @@ struct GltfContainer {
 // Error(bad_input) where the file is cut short, not glTF, or of another container version than 2.
 GltfContainer open_gltf(const std::filesystem::path& path);
 
+// A GLB of other JSON and the same binary chunk.
+std::string rebuild_glb(const std::string& json, std::span<const std::byte> binary_chunk);
+
 }  // namespace lodestone::scene

@@ -107,6 +107,8 @@ class NodeConverter {
     to.mesh = mesh;
     to.skin = skin;
     to.weights = weights;
+    reader_.charge(scene_.meshes[mesh].targets.size(), sizeof(float),
+                   label(index) + ", weights");  // of every pose
     if (!weights.empty() && weights.size() != scene_.meshes[mesh].targets.size()) {
       fail_input(reader_.file(), "{}: {} weights for {} morph targets; export it again", label(index),
                  weights.size(), scene_.meshes[mesh].targets.size());

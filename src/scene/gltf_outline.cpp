@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/gltf_outline.h"
 
+#include <tiny_gltf.h>
+
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -8,12 +10,17 @@
 #include <unordered_map>
 
 #include "lodestone/base/error.h"
+#include "lodestone/scene/gltf_uri.h"
+#include "lodestone/scene/scene.h"
 
 namespace lodestone::scene {
 namespace {
 
 constexpr size_t max_depth = 128;
-constexpr uint64_t max_values = uint64_t(1) << 24;
+// What nlohmann and tinygltf together make of the JSON, and what of it one value takes: an element of an
+// array, a property of an object, either of them in `extras` or `extensions`.
+constexpr uint64_t max_bytes = uint64_t(1) << 30;
+constexpr uint64_t element_bytes = 32, property_bytes = 112, free_bytes = 168;
 // tinygltf hands every sampler of an animation a copy of the animation's extensions.
 constexpr uint64_t max_copied_values = uint64_t(1) << 20;
 
@@ -112,8 +119,29 @@ const std::unordered_map<std::string_view, Type>& property_types() {
   return types;
 }
 
-bool is_data_uri(std::string_view uri) {
-  return uri.starts_with("data:");
+// What an object takes beyond its properties: those of which a file may have very many, by the array they are
+// in.
+uint64_t object_bytes(std::string_view array) {
+  static const std::unordered_map<std::string_view, uint64_t> sizes = {
+      {"accessors", sizeof(tinygltf::Accessor)},
+      {"animations", sizeof(tinygltf::Animation)},
+      {"bufferViews", sizeof(tinygltf::BufferView)},
+      {"buffers", sizeof(tinygltf::Buffer)},
+      {"cameras", sizeof(tinygltf::Camera)},
+      {"channels", sizeof(tinygltf::AnimationChannel)},
+      {"images", sizeof(tinygltf::Image)},
+      {"lights", sizeof(tinygltf::Light)},
+      {"materials", sizeof(tinygltf::Material) + sizeof(Material)},
+      {"meshes", sizeof(tinygltf::Mesh) + sizeof(Mesh)},
+      {"nodes", sizeof(tinygltf::Node) + sizeof(Node)},
+      {"primitives", sizeof(tinygltf::Primitive)},
+      {"samplers", sizeof(tinygltf::Sampler)},
+      {"scenes", sizeof(tinygltf::Scene)},
+      {"skins", sizeof(tinygltf::Skin)},
+      {"textures", sizeof(tinygltf::Texture)},
+  };
+  const auto found = sizes.find(array);
+  return found == sizes.end() ? 0 : found->second;
 }
 
 // The events of nlohmann's parser, which does not recurse.
@@ -166,7 +194,7 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     uint64_t elements = 0;
   };
   struct Buffer {
-    bool has_uri = false, is_external = false;
+    bool has_uri = false;
     uint64_t bytes = 0;
   };
 
@@ -190,38 +218,58 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     return frames_.size() > depth && frames_[depth].is_array && frames_[depth].name == name;
   }
 
-  void count_value(uint64_t weight) {
-    values_ += weight;
-    if (values_ > max_values)
-      fail_input(gltf_.file, "holds more than {} JSON values; split the scene", max_values);
-    if (!frames_.empty()) ++frames_.back().elements;
-    if (in_array(1, "animations") && frames_.size() > 3 && frames_[3].name == "extensions") copied_ += weight;
+  // `bytes` is what the value takes beyond its place.
+  void count_value(uint64_t bytes) {
+    if (!frames_.empty()) {
+      bytes += frames_.back().is_array ? element_bytes : property_bytes + key_.size();
+      if (frames_.back().is_free) bytes += free_bytes;
+      ++frames_.back().elements;
+    }
+    bytes_ += bytes;
+    if (bytes_ > max_bytes) {
+      fail_input(gltf_.file, "holds JSON that takes more than {} MiB, at {}; split the scene",
+                 max_bytes >> 20, place().substr(0, 160));
+    }
+    if (in_array(1, "animations") && frames_.size() > 3 && frames_[3].name == "extensions") {
+      copied_ += 1 + bytes / 512;
+    }
   }
 
   bool scalar(const Scalar& v) {
     if (frames_.empty()) fail_input(gltf_.file, "is not a JSON object; is it a glTF file?");
-    count_value(1 + v.text.size() / 64);
+    count_value(v.text.size());
     const Frame& holder = frames_.back();
     if (holder.is_free) {
-      const bool index = (holder.name == "KHR_lights_punctual" && key_ == "light") ||
-                         (holder.name == "KHR_texture_transform" && key_ == "texCoord");
-      if (index && !v.is_index()) fail_type("an index");
+      check_extension(holder, v);
       return true;
     }
     if (holder.is_array) {
       check_element(holder, v);
     } else {
       check_property(holder, v);
-      note_buffer(v);
+      note_property(v);
     }
     return true;
   }
 
+  // Of the extensions that are read, what tinygltf would take for absent.
+  void check_extension(const Frame& holder, const Scalar& v) const {
+    const bool index = (holder.name == "KHR_lights_punctual" && key_ == "light") ||
+                       (holder.name == "KHR_texture_transform" && key_ == "texCoord");
+    if (index && !v.is_index()) fail_type("an index");
+    const bool of_light = frames_.size() > 4 && frames_[2].name == "KHR_lights_punctual";
+    if (!of_light || v.is_number()) return;
+    const bool number = holder.is_array ? holder.name == "color"
+                                        : key_ == "intensity" || key_ == "range" ||
+                                              key_ == "innerConeAngle" || key_ == "outerConeAngle";
+    if (number) fail_type("a number");
+  }
+
   void check_element(const Frame& array, const Scalar& v) {
-    if (array.name == "extensionsUsed" && v.kind == Scalar::Kind::text)
-      outline_.extensions_used.emplace_back(v.text);
-    if (array.name == "extensionsRequired" && v.kind == Scalar::Kind::text) {
-      outline_.extensions_required.emplace_back(v.text);
+    if (array.name.starts_with("extensions") && frames_.size() == 2) {
+      if (v.kind != Scalar::Kind::text) fail_type("a string");
+      (array.name == "extensionsUsed" ? outline_.extensions_used : outline_.extensions_required)
+          .emplace_back(v.text);
     }
     const bool scene_nodes = array.name == "nodes" && frames_.size() > 3 && in_array(1, "scenes");
     const auto found = property_types().find(array.name);
@@ -278,13 +326,16 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     }
   }
 
-  void note_buffer(const Scalar& v) {
-    if (frames_.size() != 3 || !in_array(1, "buffers")) return;
-    if (key_ == "byteLength") buffer_.bytes = v.value;
-    if (key_ == "uri") {
-      buffer_.has_uri = !v.text.empty();
-      buffer_.is_external = !is_data_uri(v.text);
-    }
+  // Notes what is needed of buffers, images, accessors and primitives.
+  void note_property(const Scalar& v) {
+    const bool indices = key_ == "indices" && frames_.size() == 5 && in_array(3, "primitives");
+    if (indices) index_accessors_.push_back(uint32_t(v.value));
+    if (frames_.size() != 3) return;
+    const bool of_buffer = in_array(1, "buffers");
+    if (of_buffer && key_ == "byteLength") buffer_.bytes = v.value;
+    if (of_buffer && key_ == "uri") buffer_.has_uri = !v.text.empty();
+    if (key_ == "uri" && (of_buffer || in_array(1, "images"))) outline_.names_resources = true;
+    if (key_ == "bufferView" && in_array(1, "accessors")) has_view_ = true;
   }
 
   bool open(bool is_array) {
@@ -292,7 +343,7 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     if (frames_.empty()) {
       if (is_array) fail_input(gltf_.file, "is not a JSON object; is it a glTF file?");
     } else {
-      count_value(1);
+      count_value(frames_.back().is_array ? object_bytes(frames_.back().name) : 0);
       const bool named = !frames_.back().is_array;
       is_free = frames_.back().is_free || (named && (key_ == "extras" || key_ == "extensions"));
       if (!is_free) check_container(is_array, named);
@@ -335,6 +386,10 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
 
   bool close() {
     if (frames_.size() == 3 && in_array(1, "buffers")) close_buffer();
+    if (frames_.size() == 3 && in_array(1, "accessors")) {
+      if (!has_view_) viewless_accessors_.push_back(uint32_t(frames_[1].elements - 1));
+      has_view_ = false;
+    }
     if (frames_.size() == 3 && in_array(1, "animations")) {
       if (copied_ * samplers_ > max_copied_values) {
         fail_input(gltf_.file, "animations[{}] has too large extensions for its {} samplers; remove them",
@@ -343,7 +398,17 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
       copied_ = samplers_ = 0;
     }
     frames_.pop_back();
+    if (frames_.empty()) find_viewless_indices();
     return true;
+  }
+
+  void find_viewless_indices() {
+    std::sort(index_accessors_.begin(), index_accessors_.end());
+    for (const uint32_t accessor : viewless_accessors_) {
+      if (std::binary_search(index_accessors_.begin(), index_accessors_.end(), accessor)) {
+        outline_.viewless_indices.push_back(accessor);
+      }
+    }
   }
 
   void close_buffer() {
@@ -358,7 +423,6 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
                  index, buffer_.bytes, gltf_.binary_chunk.size());
     }
     if (buffer_.bytes == 0) fail_input(gltf_.file, "buffers[{}] has no bytes; export it again", index);
-    if (buffer_.has_uri && buffer_.is_external) outline_.external_buffer_bytes.push_back(buffer_.bytes);
     buffer_ = {};
   }
 
@@ -366,9 +430,11 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
   GltfOutline& outline_;
   std::vector<Frame> frames_;
   std::string key_;
-  uint64_t values_ = 0;
+  uint64_t bytes_ = 0;
   uint64_t copied_ = 0, samplers_ = 0;  // of the animation being read
   Buffer buffer_;                       // the buffer being read
+  bool has_view_ = false;               // the accessor being read
+  std::vector<uint32_t> viewless_accessors_, index_accessors_;
 };
 
 }  // namespace

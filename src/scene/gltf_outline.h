@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A pass over the JSON of a glTF file before tinygltf sees it. tinygltf takes a property of the wrong type
-// for absent, wraps integers to 32 bits, recurses over nested values and copies what buffers name as often as
-// they name it; here such files are turned away.
+// for absent, wraps integers to 32 bits, recurses over nested values and makes a kilobyte and more of an
+// empty object; here such files are turned away.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace lodestone::scene {
 
 struct GltfOutline {
   std::vector<std::string> extensions_used, extensions_required;
-  std::vector<uint64_t>
-      external_buffer_bytes;  // declared lengths of the buffers in files of their own, in order
+  bool names_resources = false;            // a buffer or an image has a uri
+  std::vector<uint32_t> viewless_indices;  // accessors of indices that have no buffer view, ascending
 };
 
 // Throws Error(bad_input) naming the place in the JSON.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string_view>
@@ -15,6 +16,9 @@
 #include "lodestone/base/parallel.h"
 #include "lodestone/scene/asset_folder.h"
 #include "lodestone/scene/decode_image.h"
+#include "lodestone/scene/gltf_prepare.h"
+#include "lodestone/scene/gltf_uri.h"
+#include "lodestone/scene/text_reader.h"
 
 namespace lodestone::scene {
 namespace {
@@ -35,10 +39,9 @@ struct EncodedImage {
 // What tinygltf's callbacks work on. They must not throw through tinygltf: the first error is kept for later.
 struct ParseState {
   const GltfContainer& gltf;
-  const GltfOutline& outline;
+  const PreparedGltf& prepared;
   tinygltf::Model& model;
   AssetFolder folder;
-  size_t external_buffers_read = 0;
   std::set<std::filesystem::path> files_read = {};
   uint64_t repeated_bytes = 0;
   std::vector<EncodedImage> images = {};
@@ -48,6 +51,7 @@ struct ParseState {
 
   template <class Function>
   bool guard(const Function& function) {
+    if (error) return false;  // tinygltf tries all images, whatever became of the first
     try {
       function();
       return true;
@@ -57,55 +61,54 @@ struct ParseState {
     }
   }
 
-  std::filesystem::path find(const std::string& name) const;
-  std::vector<std::byte> read_external(const std::string& name);
+  const GltfResource& resource(const std::string& name) const;
+  std::filesystem::path find(const GltfResource& resource) const;
+  std::vector<std::byte> read(const GltfResource& resource);
   void note_image(const tinygltf::Image& image, size_t index, std::span<const std::byte> bytes);
   std::span<const std::byte> bytes_of_view(int view, const std::string& subject) const;
 };
 
-std::filesystem::path ParseState::find(const std::string& name) const {
-  if (name.starts_with("data:")) {
-    fail_input(gltf.file,
-               "embeds data of a kind that is not read ({}...); embed them as application/octet-stream",
-               name.substr(0, 32));
-  }
-  if (name.find("://") != std::string::npos) {
-    fail_input(gltf.file, "names '{}' on the network; download it and put it beside the scene",
-               name.substr(0, 120));
-  }
-  try {
-    return folder.find(name);
-  } catch (const Error&) {
-    // tinygltf takes a plus sign for a space, as in queries; in a path it is itself.
-    if (name.find(' ') == std::string::npos) throw;
-    std::string with_plus = name;
-    std::replace(with_plus.begin(), with_plus.end(), ' ', '+');
-    try {
-      return folder.find(with_plus);
-    } catch (const Error&) {
-    }
-    throw;
-  }
+// The resource that tinygltf asks for by the name that it has in the prepared JSON.
+const GltfResource& ParseState::resource(const std::string& name) const {
+  const GltfResource* found = find_resource(prepared, name);
+  if (found == nullptr) fail_input(gltf.file, "names '{}', which cannot be opened", shown(name, 120));
+  return *found;
 }
 
-std::vector<std::byte> ParseState::read_external(const std::string& name) {
-  const std::filesystem::path path = find(name);
-  const bool is_buffer = external_buffers_read < outline.external_buffer_bytes.size();
-  std::vector<std::byte> bytes = is_buffer ? read_file(path) : read_file(path, max_external_image_bytes);
-  if (!files_read.insert(path).second) repeated_bytes += bytes.size();
-  if (repeated_bytes > max_repeated_bytes) {
-    fail_input(gltf.file, "names '{}' again and again; let all buffer views share one buffer",
-               name.substr(0, 120));
+std::filesystem::path ParseState::find(const GltfResource& resource) const {
+  if (resource.uri.find("://") != std::string::npos) {
+    fail_input(gltf.file, "{} is at '{}', which is not read; put the file beside the scene and name it alone",
+               resource.place, printable(resource.uri));
   }
-  if (!is_buffer) return bytes;
-  // A buffer's file may be longer than the buffer, but not shorter (glTF 2.0, 3.6.1).
-  const uint64_t declared = outline.external_buffer_bytes[external_buffers_read++];
-  if (bytes.size() < declared) {
-    fail_input(path.string(),
-               "is cut short: {} bytes, but {} by the byteLength in {}; copy or export it again",
-               bytes.size(), declared, gltf.file);
+  return folder.find(percent_decoded(resource.uri));
+}
+
+std::vector<std::byte> ParseState::read(const GltfResource& resource) {
+  std::string source = gltf.file;
+  std::vector<std::byte> bytes;
+  if (is_data_uri(resource.uri)) {
+    std::optional<std::vector<std::byte>> decoded = decode_data_uri(resource.uri);
+    if (!decoded) fail_input(gltf.file, "{}: its data URI is malformed; export it again", resource.place);
+    bytes = std::move(*decoded);
+  } else {
+    const std::filesystem::path path = find(resource);
+    source = path.string();
+    bytes = resource.bytes ? read_file(path) : read_file(path, max_external_image_bytes);
+    if (!files_read.insert(path).second) repeated_bytes += bytes.size();
+    if (repeated_bytes > max_repeated_bytes) {
+      fail_input(gltf.file, "names '{}' again and again; let all buffer views share one buffer",
+                 printable(resource.uri));
+    }
   }
-  bytes.resize(declared);
+  if (bytes.empty()) fail_input(source, "{} is empty; copy or export it again", resource.place);
+  if (!resource.bytes) return bytes;
+  // A buffer's bytes may be more than it declares, but not fewer (3.6.1).
+  if (bytes.size() < *resource.bytes) {
+    fail_input(source,
+               "is cut short: {} bytes, but {} by the byteLength of {} in {}; copy or export it again",
+               bytes.size(), *resource.bytes, resource.place, gltf.file);
+  }
+  bytes.resize(*resource.bytes);
   return bytes;
 }
 
@@ -121,17 +124,18 @@ std::span<const std::byte> ParseState::bytes_of_view(int view, const std::string
 
 void ParseState::note_image(const tinygltf::Image& image, size_t index, std::span<const std::byte> bytes) {
   const bool in_view = image.bufferView >= 0;
-  const std::string source = in_view             ? fmt::format("view {}", image.bufferView)
-                             : image.uri.empty() ? std::string()
-                                                 : "file " + image.uri;
+  const std::string source = in_view ? fmt::format("view {}", image.bufferView) : image.uri;
   image_of.resize(std::max(image_of.size(), index + 1), none);
   if (const auto known = image_by_source.find(source); known != image_by_source.end()) {
     image_of[index] = known->second;
     return;
   }
   EncodedImage encoded;
-  encoded.name = image.name.empty() ? image.uri : image.name;
-  encoded.subject = fmt::format("{}: image {} '{}'", gltf.file, index, encoded.name.substr(0, 120));
+  encoded.name = image.name;
+  if (image.name.empty() && !in_view && !is_data_uri(resource(image.uri).uri)) {
+    encoded.name = resource(image.uri).uri;
+  }
+  encoded.subject = fmt::format("{}: image {} '{}'", gltf.file, index, shown(encoded.name, 120));
   if (in_view) {
     encoded.bytes = bytes_of_view(image.bufferView, encoded.subject);
   } else {
@@ -145,7 +149,10 @@ void ParseState::note_image(const tinygltf::Image& image, size_t index, std::spa
 
 bool file_exists(const std::string& name, void* user) {
   ParseState& state = *static_cast<ParseState*>(user);
-  return state.guard([&] { state.find(name); });
+  return state.guard([&] {
+    const GltfResource& resource = state.resource(name);
+    if (!is_data_uri(resource.uri)) state.find(resource);
+  });
 }
 
 std::string keep_path(const std::string& name, void*) {
@@ -155,7 +162,7 @@ std::string keep_path(const std::string& name, void*) {
 bool read_whole_file(std::vector<unsigned char>* out, std::string*, const std::string& name, void* user) {
   ParseState& state = *static_cast<ParseState*>(user);
   return state.guard([&] {
-    const std::vector<std::byte> bytes = state.read_external(name);
+    const std::vector<std::byte> bytes = state.read(state.resource(name));
     const unsigned char* first = reinterpret_cast<const unsigned char*>(bytes.data());
     out->assign(first, first + bytes.size());
   });
@@ -195,17 +202,21 @@ void run_tinygltf(ParseState& state) {
   parser.SetFsCallbacks({file_exists, keep_path, read_whole_file, nullptr, &state});
   parser.SetImageLoader(load_image, &state);
   const GltfContainer& gltf = state.gltf;
+  const std::string& json = state.prepared.json;
+  const std::string binary = gltf.is_binary && !json.empty() ? rebuild_glb(json, gltf.binary_chunk) : "";
   std::string errors, warnings;
   bool parsed = false;
   try {
     // With no folder of its own every file name reaches the callbacks as it stands.
     if (gltf.is_binary) {
+      const std::string_view whole = binary.empty() ? as_text(gltf.bytes) : binary;
       parsed = parser.LoadBinaryFromMemory(&state.model, &errors, &warnings,
-                                           reinterpret_cast<const unsigned char*>(gltf.bytes.data()),
-                                           unsigned(gltf.bytes.size()), "");
+                                           reinterpret_cast<const unsigned char*>(whole.data()),
+                                           unsigned(whole.size()), "");
     } else {
-      parsed = parser.LoadASCIIFromString(&state.model, &errors, &warnings, gltf.json.data(),
-                                          unsigned(gltf.json.size()), "");
+      const std::string_view whole = json.empty() ? gltf.json : json;
+      parsed = parser.LoadASCIIFromString(&state.model, &errors, &warnings, whole.data(),
+                                          unsigned(whole.size()), "");
     }
   } catch (const std::bad_alloc&) {
     throw;
@@ -217,7 +228,7 @@ void run_tinygltf(ParseState& state) {
   const std::string serious = first_serious(errors);
   if (!parsed || !serious.empty()) {
     fail_input(gltf.file, "is not valid glTF ({}); check it with a glTF validator and export it again",
-               serious.empty() ? "a required property is missing" : serious);
+               serious.empty() ? "a required property is missing" : shown(serious, 200));
   }
 }
 
@@ -249,14 +260,21 @@ std::vector<Image> decode_all(const std::string& file, const std::vector<Encoded
 
 ParsedGltf parse_gltf(const GltfContainer& gltf, const GltfOutline& outline) {
   ParsedGltf parsed;
-  ParseState state{.gltf = gltf, .outline = outline, .model = parsed.model, .folder = AssetFolder(gltf.file)};
+  PreparedGltf prepared = prepare_gltf(gltf, outline);
+  ParseState state{
+      .gltf = gltf, .prepared = prepared, .model = parsed.model, .folder = AssetFolder(gltf.file)};
   run_tinygltf(state);
   if (!parsed.model.asset.version.starts_with("2.")) {
     fail_input(gltf.file, "is glTF of version '{}'; convert it to 2.0",
-               parsed.model.asset.version.substr(0, 16));
+               printable(parsed.model.asset.version));
+  }
+  const std::string& least = parsed.model.asset.minVersion;
+  if (!least.empty() && least != "2.0") {
+    fail_input(gltf.file, "needs a reader of glTF {}; export it as 2.0", printable(least));
   }
   parsed.images = decode_all(gltf.file, state.images);
   parsed.image_of = std::move(state.image_of);
+  parsed.viewless = std::move(prepared.viewless);
   parsed.image_of.resize(parsed.model.images.size(), none);
   for (size_t i = 0; i < parsed.image_of.size(); ++i) {
     if (parsed.image_of[i] == none)

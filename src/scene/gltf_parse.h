@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include "lodestone/scene/gltf_container.h"
@@ -19,6 +20,7 @@ struct ParsedGltf {
   tinygltf::Model model;           // buffers loaded, images not; indices and lengths unchecked
   std::vector<Image> images;       // decoded, each file or buffer view once
   std::vector<uint32_t> image_of;  // for each image of the model one of `images`
+  std::set<uint32_t> viewless;     // accessors whose buffer view is not theirs: all zeros
 };
 
 // Throws Error(bad_input).

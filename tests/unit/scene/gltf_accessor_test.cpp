@@ -103,6 +103,23 @@ TEST(GltfAccessor, WithNeitherViewNorSparseIsAllZeros) {
   EXPECT_EQ(gltf.load().meshes.at(0).positions, std::vector<glm::vec3>(3, glm::vec3(0)));
 }
 
+TEST(GltfAccessor, IndicesMayHaveNoViewEither) {
+  GltfBuilder gltf;
+  const int mesh = gltf.triangle_mesh();
+  // 0 2 1, by its two elements that are not zero.
+  gltf.primitive(mesh)["indices"] = gltf.append(
+      "accessors", {{"componentType", u16},
+                    {"count", 3},
+                    {"type", "SCALAR"},
+                    {"sparse",
+                     {{"count", 2},
+                      {"indices", {{"bufferView", gltf.view<uint8_t>({1, 2})}, {"componentType", u8}}},
+                      {"values", {{"bufferView", gltf.view<uint16_t>({2, 1})}}}}}});
+  EXPECT_EQ(gltf.load().meshes.at(0).triangles.at(0), glm::uvec3(0, 2, 1));
+  EXPECT_EQ(load_checked(gltf.folder().write("s.gltf", gltf.gltf_embedded())).meshes.at(0).triangles.at(0),
+            glm::uvec3(0, 2, 1));
+}
+
 TEST(GltfAccessor, SparseIndicesComeInEveryWidth) {
   const auto position_with = [](auto index, int component) {
     GltfBuilder gltf;

@@ -45,6 +45,41 @@ TEST(GltfFiles, APlusSignInAFileNameIsItself) {
   EXPECT_EQ(load_checked(gltf.folder().write("s.gltf", external(gltf, "a+b.bin"))).meshes.size(), 1u);
 }
 
+TEST(GltfFiles, NamesMayHoldBlanksPlusAndPercentSigns) {
+  GltfBuilder gltf;
+  with_triangle(gltf);
+  for (const char* name : {"a b+c.bin", "100%.bin", "50%25.bin", "é+ ü.bin"})
+    gltf.folder().write(name, gltf.binary);
+  for (const char* uri : {"a b+c.bin", "a%20b+c.bin", "a%20b%2bc.bin", "100%.bin", "100%25.bin",
+                          "50%2525.bin", "%C3%A9+ %C3%BC.bin"}) {
+    EXPECT_EQ(load_checked(gltf.folder().write("s.gltf", external(gltf, uri))).meshes.size(), 1u) << uri;
+  }
+}
+
+TEST(GltfFiles, DataUrisMayBeLongerThanTheirBufferAndOfAnyType) {
+  GltfBuilder gltf;
+  with_triangle(gltf);
+  const std::string content = base64(gltf.binary + "xy");
+  for (const std::string_view head :
+       {"data:application/octet-stream;base64,", "data:;base64,", "DATA:model/x;charset=utf-8;BASE64,"}) {
+    EXPECT_EQ(load_checked(gltf.folder().write("s.gltf", external(gltf, std::string(head) + content)))
+                  .meshes.size(),
+              1u);
+    const std::string message = expect_bad_input(gltf.folder().write(
+        "s.gltf", external(gltf, std::string(head) + content.substr(0, content.size() / 8 * 4))));
+    EXPECT_NE(message.find("cut short"), std::string::npos) << message;
+  }
+  for (const char* broken :
+       {"data:", "data:application/octet-stream;base64", "data:;base64,A!AA", "data:;base64,A"}) {
+    const std::string message = expect_bad_input(gltf.folder().write("s.gltf", external(gltf, broken)));
+    EXPECT_NE(message.find("buffers[0]: its data URI is malformed"), std::string::npos) << message;
+  }
+  EXPECT_EQ(
+      load_checked(gltf.folder().write("s.glb", make_glb(external(gltf, "data:;base64," + content), "")))
+          .meshes.size(),
+      1u);
+}
+
 TEST(GltfFiles, ImagesMayBeFilesOrDataUris) {
   GltfBuilder gltf;
   const std::string png = make_png(2, 1, 3, {1, 2, 3, 4, 5, 6});
@@ -148,6 +183,24 @@ TEST(GltfFiles, ExtrasMayHoldAnything) {
   gltf.root["nodes"][0]["extras"] = anything;
   gltf.root["meshes"][0]["primitives"][0]["extras"] = anything;
   EXPECT_EQ(gltf.load().meshes.size(), 1u);
+}
+
+TEST(GltfFiles, NamesWithControlCharactersStayOnTheirLine) {
+  GltfBuilder gltf;
+  with_triangle(gltf);
+  gltf.root["nodes"][0]["name"] = "a\nlodestone: error: \x1b[31m";
+  gltf.root["nodes"][0]["mesh"] = 9;
+  const std::string message = expect_bad_input(gltf.folder().write("s.glb", gltf.glb()));
+  EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
+}
+
+TEST(GltfFiles, VersionsThatNeedMoreAreErrors) {
+  GltfBuilder gltf;
+  with_triangle(gltf);
+  gltf.root["asset"]["version"] = "2.7";
+  EXPECT_EQ(gltf.load().meshes.size(), 1u);
+  gltf.root["asset"]["minVersion"] = "2.6";
+  EXPECT_NE(expect_bad_input(gltf.folder().write("s.glb", gltf.glb())).find("2.6"), std::string::npos);
 }
 
 TEST(GltfFiles, OlderVersionsAreErrors) {

@@ -476,6 +476,26 @@ TEST(MalformedAmplification, PosesAreNotLargerThanAFileCanMean) {
   expect_file_refused(file);
 }
 
+TEST(MalformedAmplification, WeightsOfPosesAreNotEither) {
+  GltfBuilder gltf;
+  const int mesh = gltf.triangle_mesh();
+  for (int i = 0; i < 5000; ++i) {
+    gltf.primitive(mesh)["targets"].push_back(json::object());
+    gltf.append("nodes", {{"mesh", mesh}});
+  }
+  const std::string message = expect_refused(gltf.folder().write("scene.glb", gltf.glb()));
+  EXPECT_NE(message.find("more than a file of this size can mean"), std::string::npos) << message;
+}
+
+TEST(MalformedAmplification, EmptyObjectsDoNotFillTheMemory) {
+  // Two bytes of a file become two thousand of a material.
+  std::string text = R"({"asset": {"version": "2.0"}, "materials": [{})";
+  for (int i = 0; i < 1000000; ++i) text += ",{}";
+  const TemporaryFolder folder;
+  const std::string message = expect_bad_input(folder.write("scene.gltf", text + "]}"));
+  EXPECT_NE(message.find("JSON that takes"), std::string::npos) << message;
+}
+
 TEST(MalformedAmplification, ExtensionsAreNotCopiedToEverySampler) {
   GoodFile file;
   json& animation = file.gltf.root["animations"][0];
@@ -530,7 +550,7 @@ TEST(MalformedText, TooManyValuesAreRefused) {
   std::string text = R"({"asset": {"version": "2.0"}, "extras": [0)";
   for (size_t i = 0; i < (size_t(1) << 24) + 10; ++i) text += ",0";
   const std::string message = expect_bad_input(folder.write("scene.gltf", text + "]}"));
-  EXPECT_NE(message.find("JSON values"), std::string::npos) << message;
+  EXPECT_NE(message.find("JSON that takes"), std::string::npos) << message;
 }
 
 TEST(MalformedContainer, IsRefused) {

@@ -159,5 +159,23 @@ TEST(GltfLight, ReadsPunctualLights) {
   EXPECT_EQ(scene.nodes.at(0).light, 2u);
 }
 
+TEST(GltfLight, ASpotMayHaveAHardEdge) {
+  GltfBuilder gltf;
+  gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}}};
+  EXPECT_EQ(gltf.load().lights.at(0).inner_cone, 0.5f);
+}
+
+TEST(GltfLight, NumbersThatAreNoneAreErrors) {
+  for (const char* light :
+       {R"({"type": "point", "intensity": "3"})", R"({"type": "point", "color": [1, "1", 1]})",
+        R"({"type": "spot", "spot": {"outerConeAngle": true}})"}) {
+    GltfBuilder gltf;
+    gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {json::parse(light)};
+    const std::string message = expect_bad_input(gltf.folder().write("s.glb", gltf.glb()));
+    EXPECT_NE(message.find("lights[0]"), std::string::npos) << message;
+  }
+}
+
 }  // namespace
 }  // namespace lodestone::scene
