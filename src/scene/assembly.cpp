@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/memory.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/layout/arithmetic.h"
 
@@ -161,6 +162,15 @@ void copy_influences(const Mesh& mesh, const Placement& placement, bool skinned,
   }
 }
 
+// A file of a few bytes may place a mesh a million times: told before the machine is out of memory.
+void require_room(const Scene& scene, const Totals& totals) {
+  constexpr uint64_t vertex_bytes =
+      2 * sizeof(glm::vec3) + sizeof(glm::vec4) + 2 * sizeof(glm::vec2) + 3 * sizeof(uint32_t);
+  require_memory(totals.vertices * vertex_bytes + totals.triangles * sizeof(glm::uvec4) +
+                     totals.morphs * sizeof(MorphEntry) + totals.influences * sizeof(MatrixInfluence),
+                 scene.name);
+}
+
 Assembly allocate(const Totals& totals) {
   Assembly assembly;
   assembly.positions.resize(totals.vertices);
@@ -180,7 +190,9 @@ Assembly allocate(const Totals& totals) {
 }  // namespace
 
 Assembly assemble(const Scene& scene) {
-  Assembly assembly = allocate(count(scene));
+  const Totals totals = count(scene);
+  require_room(scene, totals);
+  Assembly assembly = allocate(totals);
   Placement place;
   for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
     const Node& node = scene.nodes[n];

@@ -55,7 +55,8 @@ struct Assembly {
   bool has_tangents = false;
 };
 
-// Throws Error(bad_input) where the scene draws no triangle or more than 2^28 of them.
+// Throws Error(bad_input) where the scene draws no triangle or more than 2^28 of them, Error(machine) where
+// the memory would not hold them.
 Assembly assemble(const Scene& scene);
 
 std::vector<float> frame_weights(const Scene& scene, const Assembly& assembly, const Pose& pose);

@@ -193,5 +193,20 @@ TEST(Assembly, RefusesMoreTrianglesThanCanBeNumberedBeforeItAllocatesThem) {
   expect_refused(scene, "269484032 triangles, more than the 268435456");
 }
 
+TEST(Assembly, SaysThatTheMemoryWillNotDoBeforeItIsFull) {
+  Mesh mesh = strip(3);
+  mesh.positions.resize(60000);
+  mesh.normals.resize(60000);
+  Scene scene = scene_of({mesh});
+  scene.nodes.resize(60000, scene.nodes[0]);  // 300 GB of vertices
+  try {
+    assemble(scene);
+    FAIL() << "taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::machine);
+    EXPECT_NE(std::string(error.what()).find("needs"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace lodestone::scene
