@@ -50,6 +50,7 @@ def obj_seeds():
         b"l 1 2\np 1\nf 1/1 2/2 3/3\n"
         b"newmtl red\nKd 1 0 0\nKe 0 0 2\nNs 100\nPr 0.5\nPm 1\nd 0.5\nmap_d -clamp on mask.png\n"
         b"map_Kd -s 2 2 1 -o 0.5 -clamp on texture.png\nnewmtl other\nKd spectral file.rfl 1\n")
+    yield "colors.obj", b"v 0 0 0 1 0 .5\nv 1 0 0 0 1 0 # green\nv 0 1 0\nf 1 2 3\n"
     yield "crlf.obj", b"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3 # end\r\n"
 
 
@@ -216,11 +217,32 @@ def gltf_skin():
     return scene
 
 
+def gltf_facets():
+    """A strip of two facets that share an edge, skinned and morphed; indices with sparse elements alone."""
+    scene = Gltf()
+    attributes = {"POSITION": scene.accessor("VEC3", 5122, 4, struct.pack("<12h", 0, 0, 0, 9, 0, 0, 0, 9, 0, 9, 9, 9)),
+                  "JOINTS_0": scene.accessor("VEC4", 5121, 4, bytes([0, 0, 0, 0] * 4)),
+                  "WEIGHTS_0": scene.accessor("VEC4", 5123, 4, struct.pack("<16H", *[65535, 0, 0, 0] * 4),
+                                              normalized=True),
+                  "COLOR_0": scene.accessor("VEC4", 5121, 4, bytes(range(16)), normalized=True)}
+    scene.document["bufferViews"][0].update(byteLength=24)
+    indices = scene.accessor("SCALAR", 5121, 6, sparse={
+        "count": 5, "indices": {"bufferView": scene.view(bytes([1, 2, 3, 4, 5])), "componentType": 5121},
+        "values": {"bufferView": scene.view(bytes([1, 2, 2, 1, 3]))}})
+    target = {"POSITION": scene.floats("VEC3", [0] * 9 + [0, 0, 1]), "NORMAL": scene.floats("VEC3", [0, 1, 0] * 4)}
+    scene.document.update(
+        meshes=[{"primitives": [{"attributes": attributes, "indices": indices, "targets": [target],
+                                 "extras": {"targetNames": ["bend"]}}]}],
+        skins=[{"joints": [0]}], nodes=[{"mesh": 0, "skin": 0, "weights": [1]}], scenes=[{"nodes": [0]}],
+        extensionsUsed=["KHR_mesh_quantization"], extensionsRequired=["KHR_mesh_quantization"])
+    return scene
+
+
 def main():
     beside = pathlib.Path(__file__).resolve().parent / "corpus"
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else beside
     scenes = [("triangle", gltf_triangle(False)), ("texture", gltf_triangle(True)), ("morph", gltf_morph()),
-              ("skin", gltf_skin())]
+              ("skin", gltf_skin()), ("facets", gltf_facets())]
     formats = {"ply": ply_seeds(), "obj": obj_seeds(), "stl": stl_seeds(), "height_map": height_map_seeds(),
                "gltf": ((f"{name}.gltf", scene.gltf()) for name, scene in scenes),
                "glb": ((f"{name}.glb", scene.glb()) for name, scene in scenes)}
