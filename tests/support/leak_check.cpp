@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/test_support/leak_check.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -46,17 +47,23 @@ vec3 aim(std::mt19937& random, const std::vector<vec3>& texels, const QuadTriang
 
 std::vector<vec3> points_inside(const std::vector<vec3>& texels, const QuadTriangles& quads, uint32_t count,
                                 uint32_t seed) {
-  vec3 lo(1e30f), hi(-1e30f);
-  for (const glm::uvec3& t : quads.texels) {
-    lo = glm::min(lo, texels[t.x]);
-    hi = glm::max(hi, texels[t.x]);
-  }
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0, 1);
+  std::uniform_int_distribution<size_t> pick(0, quads.texels.size() - 1);
+  // Between two points of the surface: what is closed has plenty of those inside, however little room it
+  // takes in the bounds of all.
+  const auto on_surface = [&] {
+    const glm::uvec3 t = quads.texels[pick(random)];
+    return (texels[t.x] + texels[t.y] + texels[t.z]) / 3.0f;
+  };
+  const auto between = [&] {
+    const vec3 a = on_surface(), b = on_surface();
+    return a + (b - a) * unit(random);
+  };
   std::vector<vec3> inside;
   for (uint32_t tries = 0; inside.size() < count && tries < 60; ++tries) {
     std::vector<vec3> points(2 * count);
-    for (vec3& p : points) p = lo + (hi - lo) * vec3(unit(random), unit(random), unit(random));
+    std::generate(points.begin(), points.end(), between);
     std::vector<double> turns(points.size());
     parallel_for(points.size(), 1, [&](uint64_t begin, uint64_t end) {
       for (uint64_t i = begin; i < end; ++i) turns[i] = winding_number(points[i], texels, quads);
