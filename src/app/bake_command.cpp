@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "lodestone/app/baked_scene.h"
 #include "lodestone/app/common_options.h"
 #include "lodestone/app/output_path.h"
 #include "lodestone/app/thread_limit.h"
@@ -27,11 +28,14 @@ int run_bake(const BakeOptions& options) {
   if (lower_extension(output) != ".lode")
     fail(ExitCode::usage, "-o", "`{}` does not end in .lode, as baked files do", options.output);
   check_writable(output);
+  if (is_baked(options.scene.scene))
+    fail(ExitCode::usage, options.scene.scene, "is baked already; give the scene that it was baked from");
   const ThreadLimit threads(options.threads);
   const scene::Scene scene = load_scene(options.scene);
   const scene::Assembly assembly = scene::assemble(scene);
   const geometry_image::Atlas atlas = geometry_image::build_atlas(scene, assembly, options.scene.atlas);
-  geometry_image::save_atlas(output, atlas, geometry_image::atlas_hash(scene, assembly, options.scene.atlas));
+  const std::string hash = geometry_image::atlas_hash(scene, assembly, options.scene.atlas);
+  geometry_image::save_atlas(output, atlas, record_of(options.scene, output, hash));
   for (const std::string& note : atlas.report.notes) log::note(options.scene.scene + ": " + note);
   log::note(fmt::format("{}: {} charts, {} quads, {} texels", options.output, atlas.charts.size(),
                         atlas.report.quads, atlas.report.texels));
@@ -49,7 +53,9 @@ void add_bake_command(CLI::App& app, std::function<int()>& run) {
   add_atlas_options(*command, options->scene);
   add_threads_option(*command, options->threads);
   add_log_options(*command);
-  command->footer("Example: lodestone bake stanford_dragon.ply -o dragon.lode");
+  command->footer(
+      "The file is a scene itself, as long as the one that it was baked from lies in its folder or below.\n"
+      "Example: lodestone bake stanford_dragon.ply -o dragon.lode");
   command->callback([options, &run] { run = [options] { return run_bake(*options); }; });
 }
 

@@ -35,9 +35,11 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 }
 
 void add_scene_argument(CLI::App& app, SceneOptions& options) {
-  add_path(app, "SCENE", "",
-           "A .gltf .glb .obj .ply .stl, a grey .png .exr .tif as a height map, or builtin:NAME",
-           options.scene)
+  add_path(
+      app, "SCENE", "",
+      "A .gltf .glb .obj .ply .stl, a grey .png .exr .tif as a height map, a .lode beside the scene that it "
+      "was baked from, or builtin:NAME",
+      options.scene)
       ->required();
   add_value(app, "--height", "SCALE",
             "Height of a height map's brightest sample, in widths of a sample (default: a quarter of its "

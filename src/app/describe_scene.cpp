@@ -86,6 +86,15 @@ Json describe_bounds(const scene::Bounds& bounds) {
   return {{"lo", array_of(bounds.lo)}, {"hi", array_of(bounds.hi)}};
 }
 
+// Null where the file does not say (in the cache).
+Json describe_source(const geometry_image::BakeRecord& record) {
+  if (record.scene.empty()) return nullptr;
+  Json json = {{"scene", record.scene}};
+  if (record.height_scale != 0) json["height_scale"] = record.height_scale;
+  json["asked_atlas"] = to_string(record.asked);
+  return json;
+}
+
 Json describe_atlas(const geometry_image::Atlas& atlas) {
   const geometry_image::AtlasReport& report = atlas.report;
   return {{"kind", to_string(atlas.kind)},
@@ -144,9 +153,12 @@ Json describe_scene(const SceneOptions& options) {
 }
 
 Json describe_baked(const std::string& file) {
-  std::string hash;
-  const geometry_image::Atlas atlas = geometry_image::load_atlas(file, &hash);
-  return {{"baked", file}, {"content_hash", hash}, {"atlas", describe_atlas(atlas)}};
+  geometry_image::BakeRecord record;
+  const geometry_image::Atlas atlas = geometry_image::load_atlas(file, &record);
+  return {{"baked", file},
+          {"content_hash", record.content_hash},
+          {"source", describe_source(record)},
+          {"atlas", describe_atlas(atlas)}};
 }
 
 }  // namespace lodestone::app

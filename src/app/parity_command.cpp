@@ -137,6 +137,7 @@ int run_parity(const ParityOptions& options) {
   if (wanted.device == "auto") wanted.device = "gpu";
   OpenDevice device = open_device(wanted);
   const PreparedScene prepared = prepare_scene(options.scene, options.pose);
+  check_distinct({{"--log", options.log}}, {{"the scene", prepared.scene.name}});  // which a .lode has named
   render::ParityBackend parity(std::move(device.backend),
                                cpu_fallback::make_cpu_backend(options.device.backend), options.fault);
   const KeepResults keep;

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
+#include "lodestone/app/baked_scene.h"
 #include "lodestone/app/clock.h"
-#include "lodestone/app/output_path.h"
-#include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 
 namespace lodestone::app {
@@ -68,23 +67,27 @@ std::string PreparedScene::clip_name() const {
 }
 
 PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose) {
-  if (lower_extension(options.scene) == ".lode")
-    fail(ExitCode::usage, options.scene,
-         "holds a precomputation alone; give the scene that it was baked from");
   PreparedScene prepared;
   prepared.pose = pose;
-  prepared.scene = timed(prepared.stages, "load", [&] { return load_scene(options); });
+  std::optional<BakedScene> baked;
+  prepared.scene = timed(prepared.stages, "load", [&] {
+    if (!is_baked(options.scene)) return load_scene(options);
+    return baked.emplace(options).load();
+  });
   prepared.animation = scene::find_animation(prepared.scene, pose.clip);
   prepared.pose_at(0);  // finds unknown weight names before the costly part
   prepared.assembly = timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene); });
   bool cached = false;
   prepared.atlas = timed(prepared.stages, "charts", [&] {
+    if (baked) return baked->take_atlas(prepared.scene, prepared.assembly);
     return geometry_image::cached_atlas(prepared.scene, prepared.assembly, options.atlas, &cached);
   });
   const geometry_image::AtlasReport& report = prepared.atlas.report;
   log::note(fmt::format("{}: {} triangles, {} charts, {} quads, {} texels{}", options.scene, report.triangles,
                         prepared.atlas.charts.size(), report.quads, report.texels,
-                        cached ? ", atlas from the cache" : ""));
+                        cached  ? ", atlas from the cache"
+                        : baked ? ", atlas as baked"
+                                : ""));
   for (const std::string& note : report.notes) log::note(options.scene + ": " + note);
   return prepared;
 }

@@ -34,7 +34,8 @@ struct PreparedScene {
   std::string clip_name() const;  // "" without an animation
 };
 
-// Throws Error(bad_input) and Error(usage) of the loaders.
+// Of a .lode file: the scene that it was baked from, with the atlas in the file. scene.name is the file that
+// was read. Throws Error(bad_input) and Error(usage) of the loaders.
 PreparedScene prepare_scene(const SceneOptions& scene, const PoseOptions& pose);
 
 // The view of one frame; bounds may be empty where none are needed.

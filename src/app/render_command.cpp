@@ -43,6 +43,19 @@ struct RenderOptions {
   report::ProgressMode progress = report::ProgressMode::automatic;
 };
 
+std::vector<NamedFile> reports_of(const RenderOptions& options) {
+  return {{"--contact-sheet", options.contact_sheet},
+          {"--stats", options.statistics},
+          {"--profile", options.profile}};
+}
+
+// Throws Error(usage) where something that is written would replace the scene.
+void check_keeps(const RenderOptions& options, const OutputPattern& output, const std::string& scene) {
+  check_distinct(reports_of(options), {{"the scene", scene}});
+  if (output.writes(scene, options.frames.range()))
+    fail(ExitCode::usage, "-o", "`{}` is the scene, which would be overwritten; name another file", scene);
+}
+
 // Checks what no single option can say, and that everything asked for can be written.
 OutputPattern check(const RenderOptions& options) {
   const OutputPattern output("-o", options.output);
@@ -52,18 +65,13 @@ OutputPattern check(const RenderOptions& options) {
          options.output, options.frames.range().count());
   if (output.is_png() && !options.aovs.empty())
     fail(ExitCode::usage, "--aov", "a PNG holds the picture alone; write an .exr with -o");
-  const std::vector<NamedFile> reports = {{"--contact-sheet", options.contact_sheet},
-                                          {"--stats", options.statistics},
-                                          {"--profile", options.profile}};
-  check_distinct(reports, {{"the scene", options.scene.scene}});
+  const std::vector<NamedFile> reports = reports_of(options);
+  check_keeps(options, output, options.scene.scene);
   for (const NamedFile& report : reports) {
     if (!report.path.empty() && output.writes(report.path, options.frames.range()))
       fail(ExitCode::usage, report.option, "`{}` is what -o writes already; give each a file of its own",
            report.path.string());
   }
-  if (output.writes(options.scene.scene, options.frames.range()))
-    fail(ExitCode::usage, "-o", "`{}` is the scene, which would be overwritten; name another file",
-         options.scene.scene);
   check_writable(output.path(options.frames.range().first));
   for (const NamedFile& report : reports) {
     if (!report.path.empty()) check_writable(report.path);
@@ -129,6 +137,7 @@ RenderRun::RenderRun(const RenderOptions& options)
                     ? report::ProgressMode::off
                     : options.progress,
                 options.frames.range().count()) {
+  check_keeps(options, output_, prepared_.scene.name);  // which a .lode file has named
   measured_ =
       describe_run("render", options.scene.scene, prepared_, options.picture, device_.backend->info());
   if (prepared_.needs_bounds(options.picture.camera)) bounds_ = prepared_.bounds();

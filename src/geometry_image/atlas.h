@@ -46,12 +46,23 @@ struct Atlas {
 // triangle is left, a grid is not what scene.h says, or more texels or leaves are needed than there can be.
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
 
-// Baked files (.lode): header (magic, version, content hash, sizes), then the arrays zstd-compressed, then a
+// What an atlas was baked from.
+struct BakeRecord {
+  std::string content_hash{};  // atlas_hash() of the scene
+  // builtin:NAME, or the scene's file as a path relative to the folder of the baked file; empty: not recorded
+  // (so in the cache).
+  std::string scene{};
+  float height_scale = 0;                  // scene::LoadOptions::height_scale
+  AtlasKind asked = AtlasKind::automatic;  // what build_atlas was given, and the hash with it
+};
+
+// Baked files (.lode): header (magic, version, record, sizes), then the arrays zstd-compressed, then a
 // checksum.
-void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const std::string& content_hash);
+void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const BakeRecord& record);
 // Throws Error(bad_input) unless the file is whole, of this version, consistent in every index. Whether it is
-// the atlas of a given scene is for the caller to see: by the hash, and by report.triangles.
-Atlas load_atlas(const std::filesystem::path& path, std::string* content_hash = nullptr);
+// the atlas of a given scene is for the caller to see: by the hash, and by report.triangles. The path in the
+// record is what the file says: open it through scene::AssetFolder only.
+Atlas load_atlas(const std::filesystem::path& path, BakeRecord* record = nullptr);
 
 // The key of the cache: everything that the atlas is computed from.
 std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);

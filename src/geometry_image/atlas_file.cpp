@@ -2,13 +2,15 @@
 // A .lode file of this tracer, all numbers little-endian:
 //
 //   magic "lodestn" and a control character that text editors do not keep, version, kind of content
-//   content hash (text), kind, depth, number of charts, texels and slots, the report
+//   record: content hash (text), scene (text), height scale (float), kind of atlas that was asked for
+//   kind, depth, number of charts, texels and slots, the report
 //   charts, texel map, leaf map: see packed_rows.h
 //   checksum: 32 hexadecimal digits over everything before
 #include "lodestone/geometry_image/atlas_file.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "lodestone/base/error.h"
@@ -22,7 +24,7 @@ namespace lodestone::geometry_image {
 namespace {
 
 constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
-constexpr uint32_t version = 1;
+constexpr uint32_t version = 2;
 constexpr uint32_t content_atlas = 1;
 constexpr size_t checksum_digits = 32;
 
@@ -49,6 +51,20 @@ std::string checksum(std::span<const std::byte> bytes) {
   ContentHash hash;
   hash.add(bytes);
   return hash.hex();
+}
+
+BakeRecord read_record(ByteReader& reader) {
+  BakeRecord record;
+  record.content_hash = reader.text(longest_text);
+  record.scene = reader.text(longest_text);
+  record.height_scale = reader.number<float>();
+  if (!std::isfinite(record.height_scale) || record.height_scale < 0)
+    reader.fail("its height scale is out of range");
+  const auto asked = reader.number<uint32_t>();
+  if (asked > static_cast<uint32_t>(AtlasKind::exact))
+    reader.fail("it was baked as an atlas of unknown kind");
+  record.asked = static_cast<AtlasKind>(asked);
+  return record;
 }
 
 AtlasReport read_report(ByteReader& reader) {
@@ -99,12 +115,15 @@ std::span<const std::byte> trusted_part(const std::string& file, std::span<const
 
 }  // namespace
 
-std::vector<std::byte> pack_atlas(const Atlas& atlas, const std::string& content_hash) {
+std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) {
   ByteWriter writer;
   writer.bytes(std::as_bytes(std::span(magic)));
   writer.number(version);
   writer.number(content_atlas);
-  writer.text(content_hash);
+  writer.text(record.content_hash);
+  writer.text(record.scene);
+  writer.number(record.height_scale);
+  writer.number(static_cast<uint32_t>(record.asked));
   writer.number(static_cast<uint32_t>(atlas.kind));
   writer.number(atlas.depth);
   writer.number(static_cast<uint64_t>(atlas.charts.size()));
@@ -121,9 +140,9 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const std::string& content
   return writer.take();
 }
 
-Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, std::string* content_hash) {
+Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, BakeRecord* record) {
   ByteReader reader(file, trusted_part(file, bytes));
-  const std::string hash = reader.text(longest_text);
+  const BakeRecord found = read_record(reader);
   Atlas atlas;
   atlas.kind = static_cast<AtlasKind>(reader.number<uint32_t>());
   atlas.depth = reader.number<uint32_t>();
@@ -137,16 +156,16 @@ Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, st
   if (!reader.at_end()) reader.fail("it goes on behind its end");
   const std::string fault = find_fault(atlas);
   if (!fault.empty()) reader.fail(("it has " + fault).c_str());
-  if (content_hash != nullptr) *content_hash = hash;
+  if (record != nullptr) *record = found;
   return atlas;
 }
 
-void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const std::string& content_hash) {
-  write_file(path, pack_atlas(atlas, content_hash));
+void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const BakeRecord& record) {
+  write_file(path, pack_atlas(atlas, record));
 }
 
-Atlas load_atlas(const std::filesystem::path& path, std::string* content_hash) {
-  return unpack_atlas(path.string(), read_file(path), content_hash);
+Atlas load_atlas(const std::filesystem::path& path, BakeRecord* record) {
+  return unpack_atlas(path.string(), read_file(path), record);
 }
 
 }  // namespace lodestone::geometry_image

@@ -11,9 +11,9 @@
 
 namespace lodestone::geometry_image {
 
-std::vector<std::byte> pack_atlas(const Atlas& atlas, const std::string& content_hash);
+std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record);
 
 // Any bytes whatever give an atlas that keeps every promise, or Error(bad_input) that names `file`.
-Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, std::string* content_hash);
+Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, BakeRecord* record);
 
 }  // namespace lodestone::geometry_image

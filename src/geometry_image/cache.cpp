@@ -32,9 +32,9 @@ std::optional<Atlas> find_cached(const fs::path& file, const std::string& hash,
   std::error_code failed;
   if (!fs::exists(file, failed)) return std::nullopt;
   try {
-    std::string stored;
+    BakeRecord stored;
     Atlas atlas = load_atlas(file, &stored);
-    if (stored == hash && atlas.report.triangles == assembly.triangles.size()) return atlas;
+    if (stored.content_hash == hash && atlas.report.triangles == assembly.triangles.size()) return atlas;
     log::note(file.string() + ": is the atlas of another scene; it is built again");
   } catch (const std::exception& error) {  // also where it claims more memory than there is
     log::note(std::string(error.what()) + "; it is built again");
@@ -44,7 +44,7 @@ std::optional<Atlas> find_cached(const fs::path& file, const std::string& hash,
 
 void keep(const fs::path& file, const Atlas& atlas, const std::string& hash) {
   try {
-    save_atlas(file, atlas, hash);
+    save_atlas(file, atlas, {.content_hash = hash});
   } catch (const std::exception& error) {  // also of the file system's own kind
     log::note(std::string(error.what()) + "; the atlas is not kept");
   }

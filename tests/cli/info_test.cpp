@@ -65,6 +65,7 @@ TEST_F(Info, OfABakedFileIsThatOfItsScene) {
   const Json baked = json_of({"info", place("tiny.lode"), "--json"});
   EXPECT_EQ(baked["atlas"]["quads"], json_of({"info", "builtin:tiny", "--json"})["atlas"]["quads"]);
   EXPECT_EQ(baked["content_hash"].get<std::string>().size(), 32u);
+  EXPECT_EQ(baked["source"], (Json{{"scene", "builtin:tiny"}, {"asked_atlas", "auto"}}));
 }
 
 TEST_F(Info, BakingTwiceGivesEqualFiles) {

@@ -2,6 +2,7 @@
 #include "lodestone/geometry_image/atlas_file.h"
 
 #include <cstring>
+#include <limits>
 
 #include "expect_error.h"
 #include "lodestone/base/file.h"
@@ -49,17 +50,20 @@ TEST_F(AtlasFile, GivesBackWhatWasSaved) {
        {sample_scene(), test::scene_of({height_field(2, 2)}), test::scene_of({random_mesh(4, 5000, 30000)}),
         test::scene_of({height_field(700, 300)})}) {
     const Atlas atlas = atlas_of(scene);
-    save_atlas(file, atlas, "the hash");
-    std::string hash;
-    expect_equal(load_atlas(file, &hash), atlas);
-    EXPECT_EQ(hash, "the hash");
+    save_atlas(file, atlas, {"the hash", "below/scene.obj", 0.25f, AtlasKind::exact});
+    BakeRecord record;
+    expect_equal(load_atlas(file, &record), atlas);
+    EXPECT_EQ(record.content_hash, "the hash");
+    EXPECT_EQ(record.scene, "below/scene.obj");
+    EXPECT_EQ(record.height_scale, 0.25f);
+    EXPECT_EQ(record.asked, AtlasKind::exact);
   }
   EXPECT_FALSE(atlas_of(sample_scene()).report.notes.empty()) << "or they were not tested";
 }
 
 TEST_F(AtlasFile, IsSmall) {
   const Atlas grid = atlas_of(height_field(1000, 1000));
-  EXPECT_LT(pack_atlas(grid, "").size(), 200'000u);  // of 24 million bytes
+  EXPECT_LT(pack_atlas(grid, {""}).size(), 200'000u);  // of 24 million bytes
 }
 
 TEST_F(AtlasFile, IsRefusedWhereItIsMissingOrSomethingElse) {
@@ -75,12 +79,16 @@ TEST_F(AtlasFile, IsRefusedWhereItIsMissingOrSomethingElse) {
 }
 
 TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
-  Bytes file = pack_atlas(atlas_of(sample_scene()), "hash");
+  Bytes file = pack_atlas(atlas_of(sample_scene()), {"hash"});
   file[8] = std::byte(7);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
                "is a baked file of version 7");
-  file[8] = std::byte(1);
+  file[8] = std::byte(1);  // as files were before they said what they were baked from
+  sign(file);
+  expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
+               "bake it again");
+  file[8] = std::byte(2);
   file[12] = std::byte(2);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
@@ -88,7 +96,7 @@ TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
 }
 
 TEST_F(AtlasFile, IsRefusedWithAnyBitChanged) {
-  const Bytes good = pack_atlas(atlas_of(sample_scene()), "hash");
+  const Bytes good = pack_atlas(atlas_of(sample_scene()), {"hash"});
   ASSERT_TRUE(unpack(good));
   for (size_t i = 0; i < good.size(); ++i) {
     for (const int bit : {0, 3, 7}) {
@@ -100,7 +108,7 @@ TEST_F(AtlasFile, IsRefusedWithAnyBitChanged) {
 }
 
 TEST_F(AtlasFile, IsRefusedAtAnyOtherLength) {
-  const Bytes good = pack_atlas(atlas_of(sample_scene()), "hash");
+  const Bytes good = pack_atlas(atlas_of(sample_scene()), {"hash"});
   for (size_t length = 0; length < good.size(); ++length) {
     Bytes bad(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length));
     EXPECT_FALSE(unpack(bad)) << length;
@@ -118,7 +126,7 @@ TEST_F(AtlasFile, IsRefusedAtAnyOtherLength) {
 TEST_F(AtlasFile, IsHarmlessWhereAForgerSignedTheChange) {
   Atlas atlas_without_notes = atlas_of(sample_scene());
   atlas_without_notes.report.notes.clear();
-  const Bytes good = pack_atlas(atlas_without_notes, "");
+  const Bytes good = pack_atlas(atlas_without_notes, {""});
   size_t refused = 0, taken = 0;
   for (size_t i = 0; i + checksum_bytes < good.size(); ++i) {
     for (const int change : {0x01, 0x80, 0xff, 0x10}) {
@@ -139,8 +147,8 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
   const auto refuse = [&](const auto& change, const std::string& because) {
     Atlas bad = good;
     change(bad);
-    expect_error([&] { unpack_atlas("x.lode", pack_atlas(bad, ""), nullptr); }, ExitCode::bad_input, "x.lode",
-                 because);
+    expect_error([&] { unpack_atlas("x.lode", pack_atlas(bad, {""}), nullptr); }, ExitCode::bad_input,
+                 "x.lode", because);
   };
   refuse([](Atlas& a) { a.charts.clear(); }, "no chart");
   refuse([](Atlas& a) { a.kind = AtlasKind(9); }, "charts of another kind");
@@ -173,10 +181,24 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
   refuse([](Atlas& a) { a.report.notes = {"\x1b[2J"}; }, "no text");
 }
 
+TEST_F(AtlasFile, IsRefusedWhereItsRecordIsNone) {
+  const Atlas atlas = atlas_of(sample_scene());
+  const auto refuse = [&](const BakeRecord& record, const std::string& because) {
+    expect_error([&] { unpack_atlas("x.lode", pack_atlas(atlas, record), nullptr); }, ExitCode::bad_input,
+                 "x.lode", because);
+  };
+  refuse({"", std::string(5000, 'x')}, "too long");
+  refuse({"", "a.png", -1}, "height scale");
+  refuse({"", "a.png", std::numeric_limits<float>::infinity()}, "height scale");
+  refuse({"", "a.png", std::numeric_limits<float>::quiet_NaN()}, "height scale");
+  refuse({"", "a.png", 0, AtlasKind(3)}, "unknown kind");
+}
+
 // Whatever sizes a file claims, memory follows the data that are there.
 TEST_F(AtlasFile, AllocatesNoMoreThanItHolds) {
-  Bytes file = pack_atlas(atlas_of(sample_scene()), "");
-  constexpr size_t counts_at = 8 + 4 + 4 + 4 + 4 + 4;  // magic, version, content, empty hash, kind, depth
+  Bytes file = pack_atlas(atlas_of(sample_scene()), {""});
+  constexpr size_t counts_at =
+      8 + 4 + 4 + 4 + 4 + 4 + 4 + 4 + 4;  // magic, version, content, empty record, kind, depth
   for (size_t which = 0; which < 3; ++which) {
     for (const uint64_t count :
          {uint64_t(1) << 28, (uint64_t(1) << 31) - 1, uint64_t(1) << 60, ~uint64_t(0)}) {

@@ -91,10 +91,10 @@ TEST_F(Cache, TakesNoAtlasOfAnotherScene) {
   ask(scene_);
   const fs::path file = files(folder()).at(0);
   const scene::Scene other = test::scene_of({test::height_field(5, 5)});
-  save_atlas(file, test::atlas_of(other), "another hash");
+  save_atlas(file, test::atlas_of(other), {"another hash"});
   EXPECT_FALSE(ask(scene_));
   const scene::Assembly assembly = scene::assemble(scene_);
-  save_atlas(file, test::atlas_of(other), atlas_hash(scene_, assembly, AtlasKind::automatic));
+  save_atlas(file, test::atlas_of(other), {atlas_hash(scene_, assembly, AtlasKind::automatic)});
   EXPECT_FALSE(ask(scene_)) << "of another number of triangles, whatever its hash says";
 }
 

@@ -30,7 +30,7 @@ TEST(Threads, DoNotShowInAnAtlasOrInItsFile) {
       set_thread_count(threads);
       const Atlas atlas = build_atlas(scene, scene::assemble(scene), AtlasKind::automatic, order);
       // The file holds all of the atlas.
-      const std::vector<std::byte> packed = pack_atlas(atlas, "hash");
+      const std::vector<std::byte> packed = pack_atlas(atlas, {"hash"});
       if (expected.empty()) expected = packed;
       EXPECT_TRUE(packed == expected) << threads << " threads";
     }
