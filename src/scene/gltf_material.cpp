@@ -23,7 +23,7 @@ class MaterialConverter {
     to.name = from.name;
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     const std::vector<float> base = gltf_floats(reader_, pbr.baseColorFactor, label_ + ", baseColorFactor");
-    to.base_color = {base.at(0), base.at(1), base.at(2), base.at(3)};
+    to.base_color = glm::clamp(glm::vec4(base.at(0), base.at(1), base.at(2), base.at(3)), 0.0f, 1.0f);
     to.metallic = unit(pbr.metallicFactor, "metallicFactor");
     to.roughness = unit(pbr.roughnessFactor, "roughnessFactor");
     const std::vector<float> emissive =

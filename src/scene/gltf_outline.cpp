@@ -33,7 +33,7 @@ enum class Type {
   array,             // of anything
   indices,           // array of indices
   numbers,           // array of numbers
-  index_map,         // object of indices
+  object,            // of anything, or of indices (attributes)
   index_or_object,   // `indices` of a primitive, of a sparse accessor
   number_or_numbers  // `scale` of a normal map, of a node
 };
@@ -111,7 +111,17 @@ const std::unordered_map<std::string_view, Type>& property_types() {
       {"rotation", Type::numbers},
       {"translation", Type::numbers},
       {"weights", Type::numbers},
-      {"attributes", Type::index_map},
+      {"asset", Type::object},
+      {"attributes", Type::object},
+      {"baseColorTexture", Type::object},
+      {"emissiveTexture", Type::object},
+      {"metallicRoughnessTexture", Type::object},
+      {"normalTexture", Type::object},
+      {"occlusionTexture", Type::object},
+      {"orthographic", Type::object},
+      {"pbrMetallicRoughness", Type::object},
+      {"perspective", Type::object},
+      {"sparse", Type::object},
       {"indices", Type::index_or_object},
       {"target", Type::index_or_object},
       {"scale", Type::number_or_numbers},
@@ -321,7 +331,7 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
       case Type::indices:
       case Type::numbers:
         fail_type("an array");
-      case Type::index_map:
+      case Type::object:
         fail_type("an object");
     }
   }
@@ -375,7 +385,7 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
       case Type::number_or_numbers:
         if (!is_array) fail_type("an array");
         break;
-      case Type::index_map:
+      case Type::object:
       case Type::index_or_object:
         if (is_array) fail_type("an object");
         break;

@@ -32,6 +32,15 @@ bool finite(const glm::mat4& m) {
   return finite(m[0]) && finite(m[1]) && finite(m[2]) && finite(m[3]);
 }
 
+// Neither negative nor so bright that sums and products of it leave the range of floats.
+bool is_light(const glm::vec3& color) {
+  constexpr float brightest = 1e30f;
+  for (glm::length_t i = 0; i < 3; ++i) {
+    if (!(color[i] >= 0 && color[i] <= brightest)) return false;
+  }
+  return true;
+}
+
 class Validator {
  public:
   explicit Validator(const Scene& scene) : scene_(scene) {
@@ -255,12 +264,14 @@ class Validator {
               finite(l.outer_cone),
           where, "a number that is not finite");
     check(l.intensity >= 0 && l.range >= 0, where, "a negative intensity or range");
+    check(is_light(l.color * l.intensity), where, "a colour that is negative or brighter than 1e30");
   }
 
   void material(const std::string& where, const Material& m) const {
     check(finite(m.base_color) && finite(m.metallic) && finite(m.roughness) && finite(m.emissive) &&
               finite(m.normal_scale) && finite(m.occlusion_strength) && finite(m.alpha_cutoff),
           where, "a number that is not finite");
+    check(is_light(m.emissive), where, "a glow that is negative or brighter than 1e30");
     for (const Texture* t : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
                              &m.occlusion_texture, &m.emissive_texture}) {
       check(t->image == none || t->image < scene_.images.size(), where,
