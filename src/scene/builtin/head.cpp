@@ -36,7 +36,7 @@ void add_soft_key(Scene& scene) {
   Light key;
   key.kind = Light::Kind::spot;
   key.color = {1, 0.86f, 0.70f};
-  key.intensity = 88.0f / corners.size();
+  key.intensity = 102.0f / corners.size();
   key.inner_cone = 0.35f;
   key.outer_cone = 0.55f;
   for (size_t k = 0; k < corners.size(); ++k) {
@@ -53,7 +53,7 @@ void light_portrait(Scene& scene) {
   fill.name = "Fill";
   fill.kind = Light::Kind::point;
   fill.color = {1, 0.92f, 0.85f};
-  fill.intensity = 34;
+  fill.intensity = 30;
   add_light(scene, fill, {1.7f, 0.2f, 6.9f}, {0, 0, 0});
   scene.sky = Sky{{0.38f, 0.48f, 0.62f}, {0.32f, 0.34f, 0.38f}, {0.16f, 0.12f, 0.10f}};
 }

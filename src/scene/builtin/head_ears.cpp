@@ -64,7 +64,7 @@ Mesh head_ears(uint32_t material) {
   }
   add_part(mesh, 0, material);
   sculpt(mesh, [&](const Expression&) { return positions; });
-  mesh.colors.assign(mesh.positions.size(), glm::vec4(0.74f, 0.33f, 0.24f, 1));
+  mesh.colors.assign(mesh.positions.size(), glm::vec4(0.74f, 0.31f, 0.215f, 1));
   return mesh;
 }
 

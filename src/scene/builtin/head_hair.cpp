@@ -27,8 +27,15 @@ float hairline(float azimuth) {
   const float a = std::abs(azimuth);
   size_t k = 1;
   while (k + 1 < line.size() && a > line[k].x) ++k;
-  const float t = glm::clamp((a - line[k - 1].x) / (line[k].x - line[k - 1].x), 0.0f, 1.0f);
-  return glm::mix(line[k - 1].y, line[k].y, t * t * (3 - 2 * t));
+  // Hermite's cubic, so that no step shows at a knot; level at both ends.
+  const auto slope = [&](size_t n) {
+    if (n == 0 || n + 1 == line.size()) return 0.0f;
+    return (line[n + 1].y - line[n - 1].y) / (line[n + 1].x - line[n - 1].x);
+  };
+  const float width = line[k].x - line[k - 1].x;
+  const float t = glm::clamp((a - line[k - 1].x) / width, 0.0f, 1.0f), s = 1 - t;
+  return s * s * (1 + 2 * t) * line[k - 1].y + t * t * (3 - 2 * t) * line[k].y +
+         width * t * s * (s * slope(k - 1) - t * slope(k));
 }
 
 // `inside`: elevation above the hairline.

@@ -90,7 +90,7 @@ void HeadSkin::pose_mouth(const Ring& ring, const Expression& e, std::vector<glm
 }
 
 void HeadSkin::color_mouth(const Ring& ring, std::vector<glm::vec4>& out) const {
-  const glm::vec3 lip(0.66f, 0.23f, 0.18f), flesh(0.55f, 0.13f, 0.11f), throat(0.12f, 0.015f, 0.015f);
+  const glm::vec3 lip(0.62f, 0.18f, 0.145f), flesh(0.55f, 0.13f, 0.11f), throat(0.12f, 0.015f, 0.015f);
   const uint32_t around = uint32_t(ring.border.size());
   for (uint32_t column = 0; column < around; ++column)
     for (uint32_t row = 1; row < ring.rows; ++row) {

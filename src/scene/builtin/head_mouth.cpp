@@ -40,9 +40,9 @@ constexpr Arch upper_arch = {0.086f,
                              -0.36f,
                              {0, 0.116f, 0.210f, 0.300f, 0.385f, 0.465f, 0.555f},
                              {0, 0.014f, 0.002f, 0.010f, 0.012f, 0.016f}};
-constexpr Arch lower_arch = {0.130f,
+constexpr Arch lower_arch = {0.134f,
                              0.026f,
-                             -0.594f,
+                             -0.584f,
                              -0.680f,
                              0.52f,
                              0.40f,
@@ -194,7 +194,7 @@ Image mouth_shade() {
   Image image;
   image.name = "mouth";
   image.width = image.height = 1;
-  image.rgba = {100, 0, 0, 255};
+  image.rgba = {160, 0, 0, 255};
   return image;
 }
 

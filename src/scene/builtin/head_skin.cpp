@@ -48,12 +48,12 @@ float wall_azimuth(float x, float z) {
 
 glm::vec3 skin_color(Aim rest) {
   const Aim aim{std::abs(rest.azimuth), rest.elevation};
-  glm::vec3 color(0.82f, 0.44f, 0.28f);
-  const glm::vec3 flush(0.78f, 0.26f, 0.18f);
+  glm::vec3 color(0.80f, 0.40f, 0.245f);
+  const glm::vec3 flush(0.76f, 0.22f, 0.15f);
   const float cheek = bump(aim, {0.50f, -0.26f}, {0.34f, 0.28f});
   const float nose = bump(aim, {0, -0.12f}, {0.17f, 0.20f});
   const float chin = bump(aim, {0, -0.80f}, {0.25f, 0.20f});
-  color = glm::mix(color, flush, 0.50f * cheek + 0.45f * nose + 0.15f * chin);
+  color = glm::mix(color, flush, 0.60f * cheek + 0.50f * nose + 0.15f * chin);
   const float socket = bump(aim, {0.40f, 0.12f}, {0.36f, 0.34f});
   return glm::mix(color, glm::vec3(0.66f, 0.31f, 0.24f), 0.35f * socket);
 }
