@@ -41,9 +41,10 @@ uint32_t checksum(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
-// The first chunk (11.2.2): type, width, height, bits a sample, kind of colour, three methods.
+// The first chunk (11.2.2): type, width, height, bits a sample, kind of colour, three methods. libpng reads
+// no longer sides.
 void check_png_header(std::span<const std::byte> chunk, const std::string& subject) {
-  constexpr uint32_t type = 0x49484452, longest_side = 0x7fffffff;
+  constexpr uint32_t type = 0x49484452, longest_side = 1000000;
   constexpr size_t size = 17;
   if (chunk.size() != size || big_endian(chunk, 0, 4) != type) {
     fail_input(subject, "is a PNG without a header; copy or export it again");
@@ -57,7 +58,7 @@ void check_png_header(std::span<const std::byte> chunk, const std::string& subje
   const bool good_methods = big_endian(chunk, 14, 2) == 0 && big_endian(chunk, 16, 1) <= 1;
   if (!any || !good_bits || !good_methods || width - 1 >= longest_side || height - 1 >= longest_side) {
     fail_input(subject,
-               "is a PNG of {} x {} texels, {} bits and colour type {}, which PNG does not have; export "
+               "is a PNG of {} x {} texels, {} bits and colour type {}, which cannot be read; export "
                "it again",
                width, height, bits, color);
   }
