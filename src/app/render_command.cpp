@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "lodestone/app/camera_metadata.h"
 #include "lodestone/app/clock.h"
 #include "lodestone/app/common_options.h"
 #include "lodestone/app/contact_sheet_file.h"
@@ -206,6 +207,7 @@ bool RenderRun::render_frame(uint32_t frame) {
   sheet_.add(static_cast<uint32_t>(measured_.frames.size()), frame, result->display);
   image::Image image = std::move(output_.is_png() ? result->display : result->linear);
   image.metadata = provenance(measured, view);
+  add_camera(view, image);
   writer_.push(output_.path(frame), std::move(image));
   // Nobody reads them, and a long sequence has many.
   if (options_.statistics.empty() && options_.profile.empty() && log::level() != log::Level::verbose)

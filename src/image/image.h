@@ -2,9 +2,11 @@
 // Rendered images in memory and on disk.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +23,20 @@ struct Channel {
   std::vector<uint32_t> ids;  // unsigned channels (id.mesh, id.triangle)
 };
 
+// What EXR calls the standard attributes worldToCamera and worldToNDC: for row vectors (p' = p M), row by
+// row. The camera looks along +Z, +X right, +Y up; NDC has (0, 0) in the upper left corner of the picture and
+// (1, 1) in the lower right one, after division by w.
+struct CameraMatrices {
+  std::array<float, 16> world_to_camera{}, world_to_ndc{};
+};
+
 struct Image {
   uint32_t width = 0, height = 0;
   std::vector<Channel> channels;  // names differ
   // Name to text. EXR reserves the names of its own header ("channels", "compression", ...) and takes up to
   // 255 bytes of name, PNG up to 79; neither text nor name holds a zero byte.
   std::map<std::string, std::string> metadata;
+  std::optional<CameraMatrices> camera;  // kept by EXR only
   // Whether R G B are linear light (an EXR) rather than encoded for a display (a PNG). Nothing is converted
   // by it; the comparison needs to know.
   bool linear = true;
@@ -38,7 +48,8 @@ struct Image {
   Channel& add_ids(const std::string& name);
 };
 
-// EXR: every channel, float or uint, in the native format, ZIP; metadata as string attributes. PNG: R G B (A
+// EXR: every channel, float or uint, in the native format, ZIP; metadata as string attributes, the
+// camera as matrices. PNG: R G B (A
 // where there is one), or a lone Y as grey, as they are (already tone-mapped and encoded; alpha is neither
 // multiplied in nor divided out), clamped to 0..1, NaN as 0, 8 bits by floor(255 x + 0.5); metadata as tEXt.
 // Both are byte-identical for equal input (no time stamps), and appear whole or not at all. Throws
@@ -50,8 +61,8 @@ void write(const std::filesystem::path& path, const Image& image);
 // Any image that OpenImageIO reads, the first one where the file holds several: floats as they are, 8- and
 // 16-bit integers as x / 255 and x / 65535 (not linear: Image::linear is false), 32-bit unsigned channels as
 // ids; alpha as it is. Channels are named as in the file (grey: "Y"), in OpenImageIO's order. String
-// attributes become metadata. Throws Error(bad_input) where it is missing, truncated or no image, or has more
-// than max_samples samples.
+// attributes become metadata, the two standard matrices the camera. Throws Error(bad_input) where it is
+// missing, truncated or no image, or has more than max_samples samples.
 Image read(const std::filesystem::path& path);
 
 // R G B for a PNG: encoded by the sRGB curve where they are linear, clamped to 0..1, NaN as 0. Of an image

@@ -61,6 +61,16 @@ void unpack(const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const std::byte* s
                       OIIO::AutoStride, OIIO::AutoStride);
 }
 
+std::optional<CameraMatrices> camera_of(const OIIO::ImageSpec& spec) {
+  const auto* to_camera = spec.find_attribute("worldtocamera", OIIO::TypeMatrix44);
+  const auto* to_ndc = spec.find_attribute("worldtoNDC", OIIO::TypeMatrix44);
+  if (to_camera == nullptr || to_ndc == nullptr) return std::nullopt;
+  CameraMatrices camera;
+  std::memcpy(camera.world_to_camera.data(), to_camera->data(), sizeof camera.world_to_camera);
+  std::memcpy(camera.world_to_ndc.data(), to_ndc->data(), sizeof camera.world_to_ndc);
+  return camera;
+}
+
 Image read_open(const std::string& file, OIIO::ImageInput& input) {
   const OIIO::ImageSpec spec = input.spec();
   check_spec(file, spec);
@@ -84,6 +94,7 @@ Image read_open(const std::string& file, OIIO::ImageInput& input) {
     unpack(spec, type, native.get() + spec.pixel_bytes(0, c, true), stride, channel);
     image.channels.push_back(std::move(channel));
   }
+  image.camera = camera_of(spec);
   for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
     const std::string name = attribute.name().string();
     if (attribute.type() == OIIO::TypeString && !describes_the_file(name))

@@ -98,6 +98,10 @@ std::vector<unsigned char> encode_exr(const std::filesystem::path& path, const I
     spec.channelformats.push_back(channel.ids.empty() ? OIIO::TypeFloat : OIIO::TypeUInt32);
   }
   set_metadata(spec, path, image);
+  if (image.camera) {  // under the names by which OpenImageIO knows the standard attributes
+    spec.attribute("worldtocamera", OIIO::TypeMatrix44, image.camera->world_to_camera.data());
+    spec.attribute("worldtoNDC", OIIO::TypeMatrix44, image.camera->world_to_ndc.data());
+  }
   spec.attribute("compression", "zip");
   return encode("exr", path, spec, [&](uint32_t begin, uint32_t end, std::span<std::byte> strip) {
     const size_t first = size_t(begin) * image.width, pixels = size_t(end - begin) * image.width;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What is in the pictures.
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "lodestone/image/image.h"
 #include "process.h"
@@ -137,6 +141,56 @@ TEST_F(Render, SaysInTheFileHowItWasMade) {
   const auto times = nlohmann::json::parse(metadata.at("lodestone:pass_ms"));
   EXPECT_TRUE(times.contains("blend"));
   EXPECT_GE(times["blend"].get<double>(), 0);
+}
+
+// The four rows of a matrix, or less where the text is none.
+std::vector<double> numbers_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<double>(stream), {}};
+}
+
+// Where row vectors go that a matrix of an EXR multiplies, after division by w.
+std::array<double, 3> projected(const std::array<double, 3>& p, const std::array<float, 16>& m) {
+  std::array<double, 4> q{};
+  for (size_t c = 0; c < 4; ++c) q[c] = p[0] * m[c] + p[1] * m[4 + c] + p[2] * m[8 + c] + m[12 + c];
+  return {q[0] / q[3], q[1] / q[3], q[2] / q[3]};
+}
+
+TEST_F(Render, SaysInTheFileWhereItsPixelsAre) {
+  const auto bounds = nlohmann::json::parse(run({"info", "builtin:tiny", "--json"}).out)["bounds"];
+  for (const std::string camera : {"Front", "auto"}) {
+    const image::Image image = render("x.exr", {"--aov", "depth", "--camera", camera});
+    const std::vector<double> to_world = numbers_of(image.metadata.at("lodestone:camera_to_world"));
+    double half_width = 0, half_height = 0;
+    ASSERT_EQ(std::sscanf(image.metadata.at("lodestone:projection").c_str(),
+                          "perspective half_width=%lf half_height=%lf", &half_width, &half_height),
+              2);
+    ASSERT_EQ(to_world.size(), 16u);
+    ASSERT_TRUE(image.camera);
+    int hits = 0;
+    for (uint32_t y = 0; y < image.height; ++y) {
+      for (uint32_t x = 0; x < image.width; ++x) {
+        const double depth = image.find("depth.Z")->values[size_t(y) * image.width + x];
+        if (std::isinf(depth)) continue;
+        ++hits;
+        const double right = ((2 * x + 1.0) / image.width - 1) * half_width;
+        const double up = (1 - (2 * y + 1.0) / image.height) * half_height;
+        const double along = depth / std::sqrt(right * right + up * up + 1);
+        std::array<double, 3> point{};
+        for (size_t row = 0; row < 3; ++row) {
+          point[row] =
+              along * (right * to_world[4 * row] + up * to_world[4 * row + 1] - to_world[4 * row + 2]) +
+              to_world[4 * row + 3];
+          EXPECT_GT(point[row], bounds["lo"][row].get<double>() - 1e-4);
+          EXPECT_LT(point[row], bounds["hi"][row].get<double>() + 1e-4);
+        }
+        EXPECT_NEAR(projected(point, image.camera->world_to_ndc)[0], (x + 0.5) / image.width, 1e-5);
+        EXPECT_NEAR(projected(point, image.camera->world_to_ndc)[1], (y + 0.5) / image.height, 1e-5);
+        EXPECT_NEAR(projected(point, image.camera->world_to_camera)[2], along, 1e-4);
+      }
+    }
+    EXPECT_GT(hits, 10) << camera;
+  }
 }
 
 TEST_F(Render, SaysInTheFileWhichWeightsAndWhichViewItShows) {

@@ -104,6 +104,24 @@ TEST_F(ImageFile, MetadataComesBackFromExrAndPng) {
   }
 }
 
+TEST_F(ImageFile, TheCameraComesBackFromExr) {
+  Image image = render_like();
+  image.camera.emplace();
+  for (size_t i = 0; i < 16; ++i) {
+    image.camera->world_to_camera[i] = float(i) + 0.1f;
+    image.camera->world_to_ndc[i] = -1 / (float(i) + 3);
+  }
+  write(place("x.exr"), image);
+  const Image back = read(place("x.exr"));
+  ASSERT_TRUE(back.camera);
+  EXPECT_EQ(back.camera->world_to_camera, image.camera->world_to_camera);
+  EXPECT_EQ(back.camera->world_to_ndc, image.camera->world_to_ndc);
+  EXPECT_TRUE(back.metadata.empty());
+  image.camera.reset();
+  write(place("y.exr"), image);
+  EXPECT_FALSE(read(place("y.exr")).camera);
+}
+
 TEST_F(ImageFile, MetadataNamesOfTheFormatAreRefused) {
   for (const char* name : {"channels", "compression", "dataWindow", "displayWindow", "lineOrder", "name",
                            "type", "version", "chunkCount", "view", "tiles", "preview", "envmap", "multiView",
