@@ -128,6 +128,9 @@ int report(const ParityOptions& options, const render::ParityBackend& parity) {
 }
 
 int run_parity(const ParityOptions& options) {
+  if (options.device.device == "cpu")
+    fail(ExitCode::usage, "--device cpu",
+         "would compare the CPU with itself; give gpu, or a device as `lodestone devices` lists it");
   check_frames(options.frames);
   check_distinct({{"--log", options.log}}, {{"the scene", options.scene.scene}});
   if (!options.log.empty()) check_writable(options.log);

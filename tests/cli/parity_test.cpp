@@ -11,9 +11,9 @@ const ProcessOptions without_vulkan = {.environment = {{"VK_DRIVER_FILES", "/non
 
 class Parity : public CommandLine {};
 
-TEST_F(Parity, OfTheCpuWithItselfIsEqual) {
+TEST_F(Parity, OfADeviceIsEqualAndCanBeLogged) {
   const Result result =
-      run({"parity", "builtin:tiny", "--device", "cpu", "--size", "16x16", "--log", place("log.txt")});
+      run({"parity", "builtin:tiny", "--device", "gpu", "--size", "16x16", "--log", place("log.txt")});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(std::regex_search(
       result.out, std::regex("\nparity: equal, \\d+ passes, \\d+ words on .+ against the CPU\n$")))
@@ -21,9 +21,16 @@ TEST_F(Parity, OfTheCpuWithItselfIsEqual) {
   EXPECT_EQ(read_text(place("log.txt")), result.out);
 }
 
+TEST_F(Parity, OfTheCpuWithItselfIsWrongUsage) {
+  const Result result = run({"parity", "builtin:tiny", "--device", "cpu"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("--device cpu: would compare the CPU with itself"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(Parity, FindsAFaultAndNamesThePass) {
   const Result result =
-      run({"parity", "builtin:tiny", "--device", "cpu", "--size", "16x16", "--fault", "rasterise:70"});
+      run({"parity", "builtin:tiny", "--device", "gpu", "--size", "16x16", "--fault", "rasterise:70"});
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.err.find("the pass `rasterise` is the first that differs"), std::string::npos)
       << result.err;
@@ -34,13 +41,13 @@ TEST_F(Parity, FindsAFaultAndNamesThePass) {
 
 TEST_F(Parity, KnowsWhichPassesCanBeBroken) {
   const Result result =
-      run({"parity", "builtin:tiny", "--device", "cpu", "--size", "16x16", "--fault", "blur:1"});
+      run({"parity", "builtin:tiny", "--device", "gpu", "--size", "16x16", "--fault", "blur:1"});
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("there is links, blend"), std::string::npos) << result.err;
 }
 
 TEST_F(Parity, QuietLeavesTheExitCode) {
-  const Result result = run({"parity", "builtin:tiny", "--device", "cpu", "--size", "16x16", "-q"});
+  const Result result = run({"parity", "builtin:tiny", "--device", "gpu", "--size", "16x16", "-q"});
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.out + result.err, "");
 }
