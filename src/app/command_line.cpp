@@ -28,6 +28,7 @@
 #include "lodestone/app/version.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
+#include "lodestone/base/plain_line.h"
 
 namespace lodestone::app {
 namespace {
@@ -43,13 +44,8 @@ class LogLevelGuard {
   log::Level before_;
 };
 
-// One line, whatever the names of files and of what they hold: control characters, which could also move a
-// terminal's cursor, become `?`.
-int report(ExitCode code, std::string message) {
-  for (char& c : message) {
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  }
-  fmt::print(stderr, "lodestone: error: {}\n", message);
+int report(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "lodestone: error: {}\n", plain_line(message));
   return int(code);
 }
 

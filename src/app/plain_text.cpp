@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "lodestone/app/describe.h"
+#include "lodestone/base/plain_line.h"
 
 namespace lodestone::app {
 namespace {
@@ -15,7 +16,7 @@ std::string words(std::string key) {
 
 // On one line: numbers and texts as they are, arrays and objects in brackets.
 std::string inline_text(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return plain_line(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_null()) return "none";
   if (!value.is_structured()) return value.dump();
@@ -38,12 +39,13 @@ std::string element_line(const Json& element, size_t index) {
   const std::string name = element.value("name", "");
   Json rest = element;
   rest.erase("name");
-  return std::to_string(index) + ' ' + (name.empty() ? "(no name)" : name) + ": " + inline_text(rest);
+  return std::to_string(index) + ' ' + (name.empty() ? "(no name)" : plain_line(name)) + ": " +
+         inline_text(rest);
 }
 
 void print(const Json& object, const std::string& indent, std::string& text) {
   for (const auto& [key, value] : object.items()) {
-    text += indent + words(key) + ':';
+    text += indent + plain_line(words(key)) + ':';
     if (value.is_object() && !value.empty()) {
       text += '\n';
       print(value, indent + "  ", text);

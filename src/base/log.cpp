@@ -6,6 +6,8 @@
 #include <mutex>
 #include <set>
 
+#include "lodestone/base/plain_line.h"
+
 namespace lodestone::log {
 namespace {
 std::atomic<Level> current{Level::normal};
@@ -19,7 +21,7 @@ Level level() {
 }
 
 void warn(const std::string& message) {
-  if (current != Level::quiet) fmt::print(stderr, "lodestone: warning: {}\n", message);
+  if (current != Level::quiet) fmt::print(stderr, "lodestone: warning: {}\n", plain_line(message));
 }
 
 void warn_once(const std::string& key, const std::string& message) {
@@ -33,7 +35,7 @@ void warn_once(const std::string& key, const std::string& message) {
 }
 
 void note(const std::string& message) {
-  if (current == Level::verbose) fmt::print(stderr, "lodestone: {}\n", message);
+  if (current == Level::verbose) fmt::print(stderr, "lodestone: {}\n", plain_line(message));
 }
 
 }  // namespace lodestone::log
