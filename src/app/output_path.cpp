@@ -2,6 +2,7 @@
 #include "lodestone/app/output_path.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -78,12 +79,17 @@ void check_writable(const fs::path& path) {
   const fs::file_status status = fs::status(path, failed);
   if (fs::is_directory(status))
     fail(ExitCode::machine, path.string(), "is a folder; give the name of a file");
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    fail(ExitCode::machine, path.string(), "is a device or a pipe, not a file; give the name of a file");
-  const fs::path temporary = temporary_beside(path);
-  const bool made = std::ofstream(temporary, std::ios::binary).is_open();
-  const std::string reason = std::strerror(errno);
-  fs::remove(temporary, failed);
+  bool made = true;
+  std::string reason;
+  if (is_device_or_pipe(path)) {  // not opened: that would wait for a reader, or end its reading
+    made = ::access(path.c_str(), W_OK) == 0;
+    reason = std::strerror(errno);
+  } else {
+    const fs::path temporary = temporary_beside(link_target(path));
+    made = std::ofstream(temporary, std::ios::binary).is_open();
+    reason = std::strerror(errno);
+    fs::remove(temporary, failed);
+  }
   if (!made) fail(ExitCode::machine, path.string(), "cannot be written ({}); choose another place", reason);
 }
 

@@ -34,8 +34,8 @@ class OutputPattern {
 };
 
 // Throws Error(machine) unless a file can be made at `path`; makes missing folders. Leaves a file that is
-// there as it is. Devices and pipes are refused: a file is written beside and renamed, which would replace
-// them. Called before a long computation, so that it is not done in vain.
+// there as it is, and opens no device or pipe. Called before a long computation, so that it is not done in
+// vain.
 void check_writable(const std::filesystem::path& path);
 
 // A file of the command line, and the option that names it.

@@ -13,6 +13,11 @@
 
 namespace lodestone {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr int most_links = 40;  // as Linux follows
+
+}  // namespace
 
 std::vector<std::byte> read_file(const fs::path& path, uint64_t limit) {
   std::error_code failed;
@@ -28,6 +33,23 @@ std::vector<std::byte> read_file(const fs::path& path, uint64_t limit) {
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (static_cast<uint64_t>(stream.gcount()) != size) fail_input(path.string(), "cannot be read to its end");
   return bytes;
+}
+
+bool is_device_or_pipe(const fs::path& path) {
+  std::error_code failed;
+  const fs::file_status status = fs::status(path, failed);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+fs::path link_target(const fs::path& path) {
+  fs::path target = path;
+  std::error_code failed;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(target, failed)); ++links) {
+    if (links == most_links)
+      fail(ExitCode::machine, path.string(), "is a ring of links; choose another place");
+    target = target.parent_path() / fs::read_symlink(target, failed);
+  }
+  return target;
 }
 
 fs::path temporary_beside(const fs::path& path) {
@@ -56,18 +78,20 @@ void commit_file(const fs::path& temporary, const fs::path& path) {
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes) {
-  const fs::path temporary = temporary_beside(path);
-  std::ofstream stream(temporary, std::ios::binary);
+  const bool beside = !is_device_or_pipe(path);
+  const fs::path target = beside ? link_target(path) : path;
+  const fs::path written = beside ? temporary_beside(target) : target;
+  std::ofstream stream(written, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   stream.close();
   if (!stream) {
     const std::string reason = std::strerror(errno);
     std::error_code ignored;
-    fs::remove(temporary, ignored);
+    if (beside) fs::remove(written, ignored);
     fail(ExitCode::machine, path.string(), "cannot be written ({}); free some room or choose another place",
          reason);
   }
-  commit_file(temporary, path);
+  if (beside) commit_file(written, target);
 }
 
 void write_file(const fs::path& path, const std::string& text) {

@@ -21,7 +21,14 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path);
 // Renames `temporary` to `path`. Throws Error(machine).
 void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
-// Writes beside and renames. Throws Error(machine) where the disk is full or the place cannot be written.
+// Whether something is there that is neither a file nor a folder: renaming would put a file in its place.
+bool is_device_or_pipe(const std::filesystem::path& path);
+// What a symbolic link leads to in the end, there or not; any other path as it is. Throws Error(machine)
+// where links lead round in a ring.
+std::filesystem::path link_target(const std::filesystem::path& path);
+
+// Writes beside and renames; a link stays and what it leads to is written; a device or a pipe is written into
+// directly. Throws Error(machine) where the disk is full or the place cannot be written.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file(const std::filesystem::path& path, const std::string& text);
 

@@ -2,6 +2,8 @@
 // Where pictures go, and what else is said.
 #include <sys/stat.h>
 
+#include <future>
+
 #include "lodestone/image/image.h"
 #include "process.h"
 
@@ -67,15 +69,35 @@ TEST_F(Output, AFolderIsNoPlaceForAPicture) {
   EXPECT_EQ(run(tiny_render(place("x.png"))).code, 5);
 }
 
-// A file is written beside and renamed, which would put a plain file in the place of /dev/null.
-TEST_F(Output, ADeviceOrPipeIsNotReplaced) {
+TEST_F(Output, ADeviceOrPipeIsWrittenIntoAndNotReplaced) {
   ASSERT_EQ(::mkfifo(place("pipe.json").c_str(), 0600), 0);
   for (const char* option : {"--stats", "--profile"}) {
+    auto read = std::async(std::launch::async, [&] { return read_text(place("pipe.json")); });
     const Result result = run(tiny_render(place("x.png"), {option, place("pipe.json")}));
-    EXPECT_EQ(result.code, 5);
-    EXPECT_NE(result.err.find("pipe.json: is a device or a pipe"), std::string::npos) << result.err;
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(read.get().front(), '{');
   }
   EXPECT_TRUE(std::filesystem::is_fifo(place("pipe.json")));
+  EXPECT_EQ(run(tiny_render(place("x.png"), {"--stats", "/dev/full"})).code, 5);
+}
+
+TEST_F(Output, ALinkStaysAndItsTargetIsWritten) {
+  std::filesystem::create_symlink("real.png", place("link.png"));
+  ASSERT_EQ(run(tiny_render(place("link.png"))).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(place("link.png")));
+  EXPECT_EQ(files(), (Names{"link.png", "real.png"}));
+  EXPECT_EQ(image::read(place("real.png")).width, 24u);
+}
+
+TEST_F(Output, NamesInWarningsDoNothingToATerminal) {
+  write_text(place("t.obj"), "usemtl \x1b[2Jnone\xc2\x9b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::filesystem::rename(place("t.obj"), place("a\x1b[2J\rb.obj"));
+  const Result result = run(
+      {"render", place("a\x1b[2J\rb.obj"), "-o", place("x.png"), "--size", "8x8", "--device", "cpu", "-v"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("a?[2J?b.obj: 1 triangles"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find_first_of("\x1b\r"), std::string::npos);
+  EXPECT_EQ(run({"info", place("a\x1b[2J\rb.obj")}).out.find_first_of("\x1b\r"), std::string::npos);
 }
 
 TEST_F(Output, AReportBesideASequenceMayLookLikeAFrame) {
