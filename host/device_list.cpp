@@ -169,8 +169,8 @@ uint32_t select_device(const std::vector<DeviceDetails>& devices, const std::str
     }
   }
   if (named.empty()) {
-    fail(ExitCode::device, "--device " + selector, "no such device; there are: {}; {}", list_names(devices),
-         describe_driver_files());
+    fail(ExitCode::device, "--device " + selector, "no such device; there are: {}, and cpu, gpu and auto; {}",
+         list_names(devices), describe_driver_files());
   }
   for (const DeviceDetails* device : named) {
     if (device->unusable.empty()) return device->index;

@@ -120,8 +120,10 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
     ++index;
   }
   if (name.empty()) return auto_view(bounds, aspect);
-  fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto",
-       known.empty() ? "none" : known);
+  if (known.empty())
+    fail(ExitCode::usage, "--camera " + name,
+         "the scene has no camera of its own; leave the option out, or give auto");
+  fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto", known);
 }
 
 std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose,

@@ -130,6 +130,15 @@ const Wrong wrong_values[] = {
 INSTANTIATE_TEST_SUITE_P(OfValues, WrongUsage, testing::ValuesIn(wrong_values),
                          [](const auto& test) { return std::string(test.param.name); });
 
+class Camera : public CommandLine {};
+
+TEST_F(Camera, OfASceneWithoutOnesIsSaidNotToExist) {
+  write_text(place("t.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_one_error(
+      run({"render", place("t.obj"), "-o", place("x.png"), "--device", "cpu", "--camera", "Front"}), 2,
+      {"--camera Front: the scene has no camera of its own; leave the option out, or give auto"});
+}
+
 class BadInput : public CommandLine {};
 
 TEST_F(BadInput, AMissingSceneIsNamed) {
@@ -165,7 +174,7 @@ TEST_F(BadInput, NoFileIsLeftBehind) {
 TEST(NoDevice, IsExitCodeFourAndSaysWhatThereIs) {
   const Result result =
       run({"render", "builtin:tiny", "-o", "/tmp/lodestone-never-written.png", "--device", "no-such-device"});
-  expect_one_error(result, 4, {"no-such-device"});
+  expect_one_error(result, 4, {"no-such-device", "cpu, gpu and auto"});
 }
 
 }  // namespace
