@@ -86,8 +86,10 @@ void set_thread_count(uint32_t threads) {
 }
 
 uint32_t thread_count() {
+  // Asked once: the answer comes from a file.
+  static const uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
   const uint32_t wanted = threads_wanted;
-  return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+  return wanted != 0 ? wanted : cores;
 }
 
 void parallel_for(uint64_t count, uint64_t grain, const std::function<void(uint64_t, uint64_t)>& body) {

@@ -105,7 +105,7 @@ layout::LightRecord light_record(const scene::Light& light, const glm::mat4& wor
 View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
                const scene::Bounds& bounds, uint32_t width, uint32_t height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  if (name == "auto") return auto_view(bounds, aspect);
+  if (name == "auto") return checked(scene, auto_view(bounds, aspect));
   uint32_t number = 0;
   const bool numeric = !name.empty() && std::from_chars(name.data(), name.data() + name.size(), number).ptr ==
                                             name.data() + name.size();
@@ -119,7 +119,7 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
     known += (known.empty() ? "" : ", ") + (view.name.empty() ? std::to_string(index) : view.name);
     ++index;
   }
-  if (name.empty()) return auto_view(bounds, aspect);
+  if (name.empty()) return checked(scene, auto_view(bounds, aspect));
   if (known.empty())
     fail(ExitCode::usage, "--camera " + name,
          "the scene has no camera of its own; leave the option out, or give auto");

@@ -40,10 +40,8 @@ struct Bounds {
   void include(const glm::vec3& point);
 };
 
-// World bounds of all meshes over the whole animation (sampled at `samples` times, vertices skinned and
-// morphed on the CPU; multi-threaded); with `none` those of the rest pose. Vertices that no triangle has do
-// not count. Throw Error(bad_input) where a vertex overflows.
-Bounds animation_bounds(const Scene& scene, uint32_t animation, uint32_t samples = 9);
+// World bounds of all meshes, from vertices morphed and skinned on the CPU; multi-threaded. Vertices that no
+// triangle has do not count. Throws Error(bad_input) where a vertex overflows.
 Bounds pose_bounds(const Scene& scene, const Pose& pose);
 
 }  // namespace lodestone::scene

@@ -88,15 +88,4 @@ Bounds pose_bounds(const Scene& scene, const Pose& pose) {
   return all;
 }
 
-Bounds animation_bounds(const Scene& scene, uint32_t animation, uint32_t samples) {
-  if (animation == none) return pose_bounds(scene, evaluate(scene, none, 0));
-  const float duration = scene.animations.at(animation).duration();
-  Bounds all;
-  for (uint32_t i = 0; i < std::max(samples, 1u); ++i) {
-    const float time = samples > 1 ? duration * float(i) / float(samples - 1) : 0;
-    all = joined(all, pose_bounds(scene, evaluate(scene, animation, time)));
-  }
-  return all;
-}
-
 }  // namespace lodestone::scene

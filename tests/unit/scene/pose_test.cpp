@@ -192,21 +192,11 @@ TEST(PoseBounds, AreTheSameForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-TEST(AnimationBounds, CoverTheWholeClip) {
-  Scene scene = one_node();
-  scene.animations = {{"", {moving_x(0, 10)}}};
-  const Bounds b = animation_bounds(scene, 0);
-  EXPECT_EQ(b.lo, glm::vec3(0));
-  EXPECT_EQ(b.hi, glm::vec3(11, 1, 0));
-  EXPECT_EQ(animation_bounds(scene, 0, 1).hi, glm::vec3(1, 1, 0));
-  EXPECT_EQ(animation_bounds(scene, none).hi, glm::vec3(1, 1, 0));
-}
-
-TEST(AnimationBounds, OverflowIsAnError) {
+TEST(PoseBounds, OverflowIsAnError) {
   Scene scene = one_node();
   scene.meshes[0].positions[1] = {3e38f, 0, 0};
   scene.nodes[0].scale = glm::vec3(10);
-  EXPECT_THROW(animation_bounds(scene, none), Error);
+  EXPECT_THROW(pose_bounds(scene, evaluate(scene, none, 0)), Error);
 }
 
 }  // namespace
