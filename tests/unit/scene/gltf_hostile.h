@@ -13,7 +13,18 @@ namespace lodestone::scene {
 
 // More than any file of these tests can mean; the limit of AccessorReader for a tiny file is 64 MiB.
 inline constexpr size_t max_hostile_bytes = size_t(200) << 20;
+// Code that checks its every access is some times slower.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr double max_hostile_seconds = 4;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+inline constexpr double max_hostile_seconds = 4;
+#else
 inline constexpr double max_hostile_seconds = 1;
+#endif
+#else
+inline constexpr double max_hostile_seconds = 1;
+#endif
 
 // Of this process, so that a busy machine does not matter.
 inline double cpu_seconds() {

@@ -171,7 +171,7 @@ TEST(GltfLight, NumbersThatAreNoneAreErrors) {
        {R"({"type": "point", "intensity": "3"})", R"({"type": "point", "color": [1, "1", 1]})",
         R"({"type": "spot", "spot": {"outerConeAngle": true}})"}) {
     GltfBuilder gltf;
-    gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {json::parse(light)};
+    gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = json::array({json::parse(light)});
     const std::string message = expect_bad_input(gltf.folder().write("s.glb", gltf.glb()));
     EXPECT_NE(message.find("lights[0]"), std::string::npos) << message;
   }
