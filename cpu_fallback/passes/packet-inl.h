@@ -39,6 +39,7 @@ struct Packet {
   alignas(64) float near_origin[3][packet_rays], far_origin[3][packet_rays];
   alignas(64) float tmin[packet_rays], t[packet_rays], u[packet_rays], v[packet_rays];
   alignas(64) uint32_t primitive[packet_rays], axis[packet_rays];
+  bool is_ray[packet_rays];
 };
 
 HWY_ATTR inline Vec3 load3(const float (&a)[3][packet_rays], uint32_t lane) {
@@ -137,6 +138,7 @@ HWY_ATTR inline void load_packet(const Block& block, uint32_t first, uint32_t co
       packet.far_origin[axis][lane] = slabs.far_origin[axis];
     }
     packet.tmin[lane] = ray.tmin;
+    packet.is_ray[lane] = !(ray.tmax < 0.0f);
     packet.t[lane] = ray.tmax;
     packet.u[lane] = packet.v[lane] = 0;
     packet.primitive[lane] = layout::no_index;
@@ -178,7 +180,7 @@ HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) 
       if (Block::counting) active += static_cast<uint32_t>(hn::CountTrue(d, entered));
       if (leaf) {
         test_quad(block, packet, address, lane, entered, enter);
-      } else if (!Block::counting) {
+      } else if (!Block::counting && lane + width < packet_rays) {
         break;  // one ray that enters takes all of them along
       }
     }
@@ -188,8 +190,8 @@ HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) 
                            : layout::walk_on(walk);
   }
   for (uint32_t i = 0; i < count; ++i) {
-    block.finish(first + i, block.ray(first + i),
-                 {packet.t[i], packet.u[i], packet.v[i], packet.primitive[i]}, visits);
+    block.finish(first + i, packet.is_ray[i], {packet.t[i], packet.u[i], packet.v[i], packet.primitive[i]},
+                 visits);
   }
 }
 

@@ -367,7 +367,7 @@ HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
   const layout::Ray ray = block.ray(index);
   flight.best = {ray.tmax, 0, 0, layout::no_index};
   if (ray.tmax < 0.0f) {
-    block.finish(index, ray, flight.best, 0);
+    block.finish(index, false, flight.best, 0);
     return false;
   }
   make_ready(block.ray_quads(index), block.extent(), block.grid(), flight.ray);
@@ -436,7 +436,7 @@ HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32
         hwy::Prefetch(&block.wide_node(flight.record).planes[2]);
         continue;
       }
-      block.finish(flight.index, flight.ray.ray, flight.best, flight.visits);
+      block.finish(flight.index, true, flight.best, flight.visits);
       if (!fill(flight)) active[i] = active[--size];
     }
   }

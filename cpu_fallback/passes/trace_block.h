@@ -34,15 +34,14 @@ class TraceBlock : public TraceKernel<Probe> {
   // Do these rays go together? All of one octant, from nearby origins, in a narrow cone.
   bool coherent(uint32_t first, uint32_t count) {
     if (count < 4 || this->push_.resume != 0) return false;
-    const layout::Ray lead = ray(first);
+    const glm::vec3 lead = direction(first);
     const uint32_t octant = octant_of(lead);
-    glm::vec3 lo = lead.origin, hi = lead.origin;
+    glm::vec3 lo = origin(first), hi = lo;
     for (uint32_t i = first; i < first + count; ++i) {
-      const layout::Ray other = ray(i);
-      if (octant_of(other) != octant || !(layout::dot3(lead.direction, other.direction) >= 0.98f))
-        return false;
-      lo = layout::min3(lo, other.origin);
-      hi = layout::max3(hi, other.origin);
+      const glm::vec3 other = direction(i);
+      if (octant_of(other) != octant || !(layout::dot3(lead, other) >= 0.98f)) return false;
+      lo = layout::min3(lo, origin(i));
+      hi = layout::max3(hi, origin(i));
     }
     return layout::max_component(hi - lo) < extent_ * (1.0f / 64);
   }
@@ -68,14 +67,15 @@ class TraceBlock : public TraceKernel<Probe> {
     return this->push_.resume == 0 ? layout::no_index : this->states_.load4(index).w;
   }
 
-  void finish(uint32_t index, const layout::Ray& ray, layout::Hit hit, uint32_t visits) {
+  // `is_ray`: not one whose tmax says that there is none.
+  void finish(uint32_t index, bool is_ray, layout::Hit hit, uint32_t visits) {
     if (any_hit() && hit.primitive != layout::no_index) hit = {0, 0, 0, 0};
     this->hits_.store4(index, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
     this->states_.store4(index, {0, 0, layout::trace_finished, layout::no_index});
     if (this->constant(1) != 0) this->steps_.store1(index, visits);
     this->probe.read(8);
     this->probe.write(8);
-    if (this->push_.resume == 0 && !(ray.tmax < 0.0f)) this->probe.ray();
+    if (this->push_.resume == 0 && is_ray) this->probe.ray();
   }
 
   // One node was read and tested against the `rays` rays of a packet, of which `active` enter it.
@@ -141,8 +141,11 @@ class TraceBlock : public TraceKernel<Probe> {
   uint32_t order(uint32_t address) const { return this->nodes_lo_.words[4 * uint64_t(address) + 3]; }
 
  private:
-  static uint32_t octant_of(const layout::Ray& ray) {
-    return (ray.direction.x < 0 ? 1 : 0) | (ray.direction.y < 0 ? 2 : 0) | (ray.direction.z < 0 ? 4 : 0);
+  // As stored: whether these are numbers at all, ray() tells.
+  glm::vec3 origin(uint32_t index) const { return as_vec3(this->rays_.load4(2 * uint64_t(index))); }
+  glm::vec3 direction(uint32_t index) const { return as_vec3(this->rays_.load4(2 * uint64_t(index) + 1)); }
+  static uint32_t octant_of(const glm::vec3& direction) {
+    return (direction.x < 0 ? 1 : 0) | (direction.y < 0 ? 2 : 0) | (direction.z < 0 ? 4 : 0);
   }
 
   const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(9).words);
