@@ -135,7 +135,7 @@ void add_check_command(CLI::App& app, std::function<int()>& run,
                     "Write golden images that are missing or differ (refused where the environment sets CI)");
   add_log_options(*command);
   command->footer(
-      "SUITE holds {\"tests\": [{\"name\": \"sphere\", \"render\": [\"builtin:sphere\", \"--size\", "
+      "SUITE holds {\"tests\": [{\"name\": \"sphere\", \"render\": [\"builtin:spheres\", \"--size\", "
       "\"64x64\"],\n"
       "\"golden\": \"golden/sphere.exr\", \"thresholds\": {\"flip_mean\": 0.01}}]}: arguments of `lodestone "
       "render`\n"

@@ -23,7 +23,7 @@ struct GoldenSuite {
 };
 
 // Reads a suite, JSON:
-//   {"tests": [{"name": "sphere", "render": ["builtin:sphere", "--size", "64x64"], "golden":
+//   {"tests": [{"name": "sphere", "render": ["builtin:spheres", "--size", "64x64"], "golden":
 //   "golden/sphere.exr",
 //               "thresholds": {"max": 0.01, "ignore": ["steps.N"]}}]}
 // `golden` is relative to the suite's folder, which `{suite}` in an argument stands for. `thresholds` may be

@@ -84,7 +84,10 @@ std::vector<std::string> parse_list(const std::string& option, const std::string
   size_t begin = 0;
   while (true) {
     const size_t end = std::min(text.find(',', begin), text.size());
-    const std::string item = text.substr(begin, end - begin);
+    std::string item = text.substr(begin, end - begin);
+    // Blanks beside a comma mean nothing.
+    item.erase(0, std::min(item.find_first_not_of(' '), item.size()));
+    item.erase(item.find_last_not_of(' ') + 1);
     if (item.empty()) fail_usage(option, "`{}` has an empty place in its list", text);
     if (std::find(items.begin(), items.end(), item) != items.end())
       fail_usage(option, "`{}` stands twice in the list", item);
