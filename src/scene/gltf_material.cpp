@@ -72,9 +72,11 @@ class MaterialConverter {
       to.alpha_cutoff = gltf_float(reader_, from.alphaCutoff, label_ + ", alphaCutoff");
     } else if (from.alphaMode == "BLEND") {
       to.alpha_cutoff = 0.5f;
-      log::warn_once(reader_.file() + " alpha blending",
-                     fmt::format("{}: {}: blended transparency is drawn as cut out at alpha 0.5, in all materials that have it",
-                                 reader_.file(), label_));
+      log::warn_once(
+          reader_.file() + " alpha blending",
+          fmt::format(
+              "{}: {}: blended transparency is drawn as cut out at alpha 0.5, in all materials that have it",
+              reader_.file(), label_));
     } else {
       fail_input(reader_.file(), "{}: alphaMode '{}' does not exist; export it again", label_,
                  printable(from.alphaMode));
