@@ -11,26 +11,53 @@ CONST float infinity_bits_as_max = 3.402823466e38f;  // the largest float: an em
 CONST float pi = 3.14159265f;
 
 // Selects, not min/max: those differ between devices for NaN and for -0 against +0.
-FN float min2(float a, float b) { return b < a ? b : a; }
-FN float max2(float a, float b) { return a < b ? b : a; }
-FN float clamp1(float x, float lo, float hi) { return min2(max2(x, lo), hi); }
-FN float saturate(float x) { return min2(max2(x, 0.0f), 1.0f); }
-FN float abs1(float x) { return x < 0.0f ? -x : x; }
-FN vec3 min3(vec3 a, vec3 b) { return vec3(min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z)); }
-FN vec3 max3(vec3 a, vec3 b) { return vec3(max2(a.x, b.x), max2(a.y, b.y), max2(a.z, b.z)); }
-FN float max_component(vec3 a) { return max2(a.x, max2(a.y, a.z)); }
-FN float dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+FN float min2(float a, float b) {
+  return b < a ? b : a;
+}
+FN float max2(float a, float b) {
+  return a < b ? b : a;
+}
+FN float clamp1(float x, float lo, float hi) {
+  return min2(max2(x, lo), hi);
+}
+FN float saturate(float x) {
+  return min2(max2(x, 0.0f), 1.0f);
+}
+FN float abs1(float x) {
+  return x < 0.0f ? -x : x;
+}
+FN vec3 min3(vec3 a, vec3 b) {
+  return vec3(min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z));
+}
+FN vec3 max3(vec3 a, vec3 b) {
+  return vec3(max2(a.x, b.x), max2(a.y, b.y), max2(a.z, b.z));
+}
+FN float max_component(vec3 a) {
+  return max2(a.x, max2(a.y, a.z));
+}
+FN float dot3(vec3 a, vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 FN vec3 cross3(vec3 a, vec3 b) {
   return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-FN vec3 mix3(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
+FN vec3 mix3(vec3 a, vec3 b, float t) {
+  return a * (1.0f - t) + b * t;
+}
 
-// Values nearer to zero than 2^-60 become +0, so that no product of two of them is denormal (devices differ there).
-FN float flush_tiny(float x) { return abs1(x) < 8.673617e-19f ? 0.0f : x; }
-FN vec3 flush_tiny3(vec3 v) { return vec3(flush_tiny(v.x), flush_tiny(v.y), flush_tiny(v.z)); }
+// Values nearer to zero than 2^-60 become +0, so that no product of two of them is denormal (devices differ
+// there).
+FN float flush_tiny(float x) {
+  return abs1(x) < 8.673617e-19f ? 0.0f : x;
+}
+FN vec3 flush_tiny3(vec3 v) {
+  return vec3(flush_tiny(v.x), flush_tiny(v.y), flush_tiny(v.z));
+}
 
 // What is too small for the flushing of a product somewhere behind it to leave its bits alone becomes +0.
-FN float flush_lost(float x) { return abs1(x) < 1e-30f ? 0.0f : x; }
+FN float flush_lost(float x) {
+  return abs1(x) < 1e-30f ? 0.0f : x;
+}
 
 // v / |v|; `fallback` where v is too short to have a direction.
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
@@ -42,7 +69,8 @@ FN vec3 normalize_or(vec3 v, vec3 fallback) {
   return flush_tiny3(vec3(s.x / length, s.y / length, s.z / length));
 }
 
-// 2^x for x in [-100, 100]; relative error below 2e-7. A polynomial on [-0.5, 0.5] times a power of two by bits.
+// 2^x for x in [-100, 100]; relative error below 2e-7. A polynomial on [-0.5, 0.5] times a power of two by
+// bits.
 FN float exp2_(float x) {
   x = clamp1(x, -100.0f, 100.0f);
   float whole = floor(x + 0.5f);
@@ -76,12 +104,14 @@ FN float log2_(float x) {
   return s * p + float(exponent);
 }
 
-FN float pow_(float x, float y) { return x <= 0.0f ? 0.0f : exp2_(y * log2_(x)); }
+FN float pow_(float x, float y) {
+  return x <= 0.0f ? 0.0f : exp2_(y * log2_(x));
+}
 
 // (cos, sin) of 2 pi x; absolute error below 1e-6.
 FN vec2 cos_sin_turns(float x) {
-  float f = x - floor(x + 0.5f);       // [-0.5, 0.5] turns
-  float q = floor(f * 4.0f + 0.5f);    // nearest quarter
+  float f = x - floor(x + 0.5f);            // [-0.5, 0.5] turns
+  float q = floor(f * 4.0f + 0.5f);         // nearest quarter
   float r = (f - q * 0.25f) * 6.28318531f;  // [-pi/4, pi/4]
   float r2 = r * r;
   float s = r * (1.0f + r2 * (-1.6666667e-1f + r2 * (8.3333310e-3f + r2 * -1.9840874e-4f)));

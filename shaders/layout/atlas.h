@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The geometry image and its hierarchy, as they lie in buffers.
 //
-// A chart is a rectangle of width x height texels (samples of the surface) in one run of the geometry image, row by
-// row; its (width-1) x (height-1) quads are leaves of the hierarchy. The leaves of a chart, in Morton order, fill a
-// block of 4^k slots that starts at a multiple of 4^k; slots without a quad are empty. The blocks of all charts, one
-// after the other, are the leaves of one implicit 4-ary tree: the lower levels are each chart's MIP pyramid, the upper
-// ones the static tree over the charts. Level `depth` (0: the root) has 4^depth places; node `index` of it is at
-// address (4^depth - 1) / 3 + index, and its children are 4 * index + 0..3 of the next. One address serves the links,
-// the bounds and the leaf map (section 3.2 of the paper: "a single uv coordinate").
+// A chart is a rectangle of width x height texels (samples of the surface) in one run of the geometry image,
+// row by row; its (width-1) x (height-1) quads are leaves of the hierarchy. The leaves of a chart, in Morton
+// order, fill a block of 4^k slots that starts at a multiple of 4^k; slots without a quad are empty. The
+// blocks of all charts, one after the other, are the leaves of one implicit 4-ary tree: the lower levels are
+// each chart's MIP pyramid, the upper ones the static tree over the charts. Level `depth` (0: the root) has
+// 4^depth places; node `index` of it is at address (4^depth - 1) / 3 + index, and its children are 4 * index
+// + 0..3 of the next. One address serves the links, the bounds and the leaf map (section 3.2 of the paper: "a
+// single uv coordinate").
 #ifndef LODESTONE_LAYOUT_ATLAS_H
 #define LODESTONE_LAYOUT_ATLAS_H
 
@@ -21,8 +22,9 @@ CONST uint leaf_flag = 0x80000000u;   // in a hit link: the rest is the texel of
 CONST uint empty_slot = 0x7fffffffu;  // a leaf slot without a quad
 
 // What kind of triangle a chart's quads stand for.
-CONST uint chart_grid = 0u;   // quad (x, y) half h is triangle first_triangle + 2 * (y * (width - 1) + x) + h
-CONST uint chart_exact = 1u;  // a 3 x 3 chart that is triangle first_triangle: corners, edge midpoints, centroid
+CONST uint chart_grid = 0u;  // quad (x, y) half h is triangle first_triangle + 2 * (y * (width - 1) + x) + h
+CONST uint chart_exact =
+    1u;  // a 3 x 3 chart that is triangle first_triangle: corners, edge midpoints, centroid
 
 struct ChartRecord {
   uint first_texel;
@@ -31,7 +33,7 @@ struct ChartRecord {
   uint kind;
   uint first_triangle;  // in the triangle buffer
   uint first_slot;
-  uint slot_count;      // a power of 4
+  uint slot_count;  // a power of 4
   uint pad;
 };
 // There can be a chart a triangle, so that charts too are an array of quads, two each.
@@ -48,15 +50,17 @@ FN ChartRecord chart_record(uvec4 a, uvec4 b) {
   return chart;
 }
 
-// Texel map, a quad buffer: { triangle, barycentric of vertex 1, of vertex 2 (float bits), chart + 1 }; all zero: no texel.
-// Leaf map, a word buffer, two words a slot: { texel of corner a (empty_slot: none), row stride in texels }.
-// Links, a word buffer, two words a node: { hit, miss }; 0 ends the traversal.
-// Geometry image, a quad buffer: { x, y, z (float bits), chart + 1 }; w = 0: no texel.
-// Normal map, a quad buffer: { x, y, z (float bits, not normalised), 0 }.
-// Bounds, two quad buffers: lo { min x, y, z, a }, hi { max x, y, z, b }. Leaf: a = leaf_flag | texel, b = stride.
-// Inner node: a = visiting order, 2 bits an octant: child k of octant o is ((a >> 2 o) & 3) ^ k; b = 0.
+// Texel map, a quad buffer: { triangle, barycentric of vertex 1, of vertex 2 (float bits), chart + 1 }; all
+// zero: no texel. Leaf map, a word buffer, two words a slot: { texel of corner a (empty_slot: none), row
+// stride in texels }. Links, a word buffer, two words a node: { hit, miss }; 0 ends the traversal. Geometry
+// image, a quad buffer: { x, y, z (float bits), chart + 1 }; w = 0: no texel. Normal map, a quad buffer: { x,
+// y, z (float bits, not normalised), 0 }. Bounds, two quad buffers: lo { min x, y, z, a }, hi { max x, y, z,
+// b }. Leaf: a = leaf_flag | texel, b = stride. Inner node: a = visiting order, 2 bits an octant: child k of
+// octant o is ((a >> 2 o) & 3) ^ k; b = 0.
 
-FN uint level_base(uint depth) { return 0x55555555u & ((1u << (2u * depth)) - 1u); }
+FN uint level_base(uint depth) {
+  return 0x55555555u & ((1u << (2u * depth)) - 1u);
+}
 
 // Morton code of (x, y), 16 bits each: x in the even bits.
 FN uint spread_bits(uint x) {

@@ -34,8 +34,8 @@ FN Bound join(Bound a, Bound b) {
   return bound;
 }
 
-// For each octant two bits: whether the children 1 and 3 lie before 0 and 2, and 2 and 3 before 0 and 1, along a
-// ray of that octant, by the sums of their bounds. An empty child's corners cancel out.
+// For each octant two bits: whether the children 1 and 3 lie before 0 and 2, and 2 and 3 before 0 and 1,
+// along a ray of that octant, by the sums of their bounds. An empty child's corners cancel out.
 FN uint child_order(Bound c0, Bound c1, Bound c2, Bound c3) {
   vec3 s0 = c0.lo + c0.hi;
   vec3 s1 = c1.lo + c1.hi;

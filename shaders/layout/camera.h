@@ -8,8 +8,8 @@
 
 LODESTONE_LAYOUT_BEGIN
 
-// Ray `ray` of the picture (numbered in tiles), through a point of its pixel: the centre, or where sample `index` of the
-// pixel lies. A ray outside the picture has tmax = -1.
+// Ray `ray` of the picture (numbered in tiles), through a point of its pixel: the centre, or where sample
+// `index` of the pixel lies. A ray outside the picture has tmax = -1.
 FN Ray camera_ray(FrameRecord frame, uint ray, uint index, uint centered) {
   Ray result;
   result.origin = frame.origin;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a kernel counts in one dispatch, when specialization constant 1 says so: eight low words, then eight high ones.
+// What a kernel counts in one dispatch, when specialization constant 1 says so: eight low words, then eight
+// high ones.
 #ifndef LODESTONE_LAYOUT_COUNTERS_H
 #define LODESTONE_LAYOUT_COUNTERS_H
 

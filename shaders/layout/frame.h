@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the host uploads: once per scene the tables, once per frame camera and lights (and weights and matrices, see
-// geometry_image/blend). Scalar layout: no padding but what is written here.
+// What the host uploads: once per scene the tables, once per frame camera and lights (and weights and
+// matrices, see geometry_image/blend). Scalar layout: no padding but what is written here.
 #ifndef LODESTONE_LAYOUT_FRAME_H
 #define LODESTONE_LAYOUT_FRAME_H
 
@@ -33,9 +33,9 @@ CONST uint light_sky = 3u;
 struct LightRecord {
   vec3 position;
   uint kind;
-  vec3 direction;  // of the light's rays, unit length
-  float range;     // 0: infinite
-  vec3 color;      // times intensity
+  vec3 direction;     // of the light's rays, unit length
+  float range;        // 0: infinite
+  vec3 color;         // times intensity
   float cone_scale;   // spot: 1 / (cos inner - cos outer) ...
   float cone_offset;  // ... and -cos outer times that
   uint pad0;
@@ -87,15 +87,15 @@ struct PartRecord {
   uint first_mesh_triangle;
 };
 
-// Rays are numbered in tiles of 8 x 8 pixels, Morton order within a tile, so that neighbours in a subgroup are
-// neighbours in the picture.
+// Rays are numbered in tiles of 8 x 8 pixels, Morton order within a tile, so that neighbours in a subgroup
+// are neighbours in the picture.
 struct RayPush {
   uint first_ray;  // of the batch
   uint rays;
   uint sample_index;
-  uint centered;   // 1: through pixel centres
+  uint centered;  // 1: through pixel centres
   uint light;
-  uint first;      // 1: the pass starts a sum, 0: it adds to one
+  uint first;  // 1: the pass starts a sum, 0: it adds to one
 };
 
 struct ResolvePush {
@@ -113,13 +113,15 @@ struct CountPush {
 };
 
 struct BoundsPush {
-  uint depth;    // of the nodes that are read: the leaves, or a level above
-  uint count;    // places on that level that may be read
-  uint written;  // places of the next level to write ...
+  uint depth;          // of the nodes that are read: the leaves, or a level above
+  uint count;          // places on that level that may be read
+  uint written;        // places of the next level to write ...
   uint written_above;  // ... and of the one above that
 };
 
-FN uint tile_count(uint size) { return (size + 7u) / 8u; }
+FN uint tile_count(uint size) {
+  return (size + 7u) / 8u;
+}
 
 LODESTONE_LAYOUT_END
 #endif

@@ -6,10 +6,10 @@
 
 LODESTONE_LAYOUT_BEGIN
 struct LinksPush {
-  uint depth;       // of the nodes whose links are written
+  uint depth;  // of the nodes whose links are written
   uint leaf_depth;
-  uint count;       // nodes on that level
-  uint slots;       // leaf slots in use; those behind are padding
+  uint count;  // nodes on that level
+  uint slots;  // leaf slots in use; those behind are padding
 };
 LODESTONE_LAYOUT_END
 #endif

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Random numbers for all tracers: Sobol points, Owen-scrambled by hashing (Laine and Karras 2011, "Stratified sampling for
-// stochastic transparency"; Burley 2020, "Practical hash-based Owen scrambling"). A number is a function of (seed, pixel,
-// sample, dimension) alone, so pictures do not depend on threads, batches or the device.
+// Random numbers for all tracers: Sobol points, Owen-scrambled by hashing (Laine and Karras 2011, "Stratified
+// sampling for stochastic transparency"; Burley 2020, "Practical hash-based Owen scrambling"). A number is a
+// function of (seed, pixel, sample, dimension) alone, so pictures do not depend on threads, batches or the
+// device.
 #ifndef LODESTONE_LAYOUT_SAMPLING_H
 #define LODESTONE_LAYOUT_SAMPLING_H
 
@@ -17,7 +18,9 @@ FN uint hash(uint x) {
   x = x ^ (x >> 15u);
   return x;
 }
-FN uint hash_combine(uint seed, uint x) { return hash(seed ^ (x * 0x9e3779b9u + 0x85ebca6bu)); }
+FN uint hash_combine(uint seed, uint x) {
+  return hash(seed ^ (x * 0x9e3779b9u + 0x85ebca6bu));
+}
 
 // Owen scrambling of reversed bits: each bit flips by a hash of the bits above it.
 FN uint owen_scramble(uint x, uint seed) {
@@ -42,7 +45,9 @@ FN uint sobol_second(uint index) {
   return result;
 }
 
-FN float unit_float(uint x) { return float(x >> 8u) * 5.9604645e-8f; }  // [0, 1), 24 bits
+FN float unit_float(uint x) {
+  return float(x >> 8u) * 5.9604645e-8f;
+}  // [0, 1), 24 bits
 
 // Sample `index` of the two-dimensional sequence number `pair` of a pixel.
 FN vec2 sample_2d(uint seed, uint pixel, uint index, uint pair) {

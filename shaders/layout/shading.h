@@ -37,8 +37,10 @@ struct TexelPair {
 };
 
 FN TexelPair texel_pair(float coordinate, uint size, uint wrap, uint nearest) {
-  // Beyond some thousand repeats a float has no fraction left; fold first, so that the integer part stays small.
-  float folded = wrap == wrap_clamp ? clamp1(coordinate, -1.0f, 2.0f) : coordinate - 2.0f * floor(coordinate * 0.5f);
+  // Beyond some thousand repeats a float has no fraction left; fold first, so that the integer part stays
+  // small.
+  float folded =
+      wrap == wrap_clamp ? clamp1(coordinate, -1.0f, 2.0f) : coordinate - 2.0f * floor(coordinate * 0.5f);
   float x = folded * float(size) - (nearest != 0u ? 0.0f : 0.5f);
   float whole = floor(x);
   int i = int(whole);
@@ -56,12 +58,15 @@ FN vec2 transform_texcoord(TextureRecord texture_record, vec2 uv) {
 
 // A vertex colour as stored: the square roots of R, G and B, which keeps dark tones apart, and A.
 FN vec4 unpack_vertex_color(uint rgba) {
-  vec4 c = vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u), float(rgba >> 24u)) / 255.0f;
+  vec4 c =
+      vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u), float(rgba >> 24u)) /
+      255.0f;
   return vec4(c.x * c.x, c.y * c.y, c.z * c.z, c.w);
 }
 
 FN vec4 unpack_rgba8(uint rgba) {
-  return vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u), float(rgba >> 24u)) /
+  return vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u),
+              float(rgba >> 24u)) /
          255.0f;
 }
 
@@ -77,7 +82,7 @@ struct Surface {
   float reach;     // the largest number in its rounding: a coordinate, or the way to a corner of its triangle
   vec3 geometric;  // unit normals, turned to the viewer
   vec3 normal;
-  vec3 view;       // to the viewer, unit length
+  vec3 view;  // to the viewer, unit length
   vec3 albedo;
   vec3 emission;
   float alpha;
@@ -93,8 +98,12 @@ FN float fresnel_power(float cosine) {
   return x2 * x2 * x;
 }
 
-FN vec3 specular_color(Surface s) { return mix3(vec3(0.04f, 0.04f, 0.04f), s.albedo, s.metallic); }
-FN vec3 diffuse_color(Surface s) { return s.albedo * (1.0f - s.metallic); }
+FN vec3 specular_color(Surface s) {
+  return mix3(vec3(0.04f, 0.04f, 0.04f), s.albedo, s.metallic);
+}
+FN vec3 diffuse_color(Surface s) {
+  return s.albedo * (1.0f - s.metallic);
+}
 
 // The BRDF times the cosine, for light from `to_light` (unit length).
 FN vec3 reflected(Surface s, vec3 to_light) {
@@ -136,8 +145,8 @@ FN vec3 cosine_direction(vec3 axis, vec2 xi) {
   return normalize_or(tangent * disc_x + bitangent * disc_y + axis * height, axis);
 }
 
-// The share of a sky of radiance 1 that the rough mirror part sends back (Karis 2014, "Physically based shading on mobile",
-// a fit of the split-sum table).
+// The share of a sky of radiance 1 that the rough mirror part sends back (Karis 2014, "Physically based
+// shading on mobile", a fit of the split-sum table).
 FN vec3 sky_specular(Surface s) {
   float n_v = saturate(dot3(s.normal, s.view));
   float r = s.roughness;
@@ -167,9 +176,10 @@ FN LightSample sample_light(LightRecord light, FrameRecord frame, Surface s, vec
     result.direction = cosine_direction(s.normal, xi);
     vec3 mirror = s.normal * (2.0f * dot3(s.normal, s.view)) - s.view;
     vec3 f = sky_specular(s);
-    result.radiance = (diffuse_color(s) * sky_radiance(frame, result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
-                       f * sky_radiance(frame, normalize_or(mirror, s.normal))) *
-                      s.occlusion;
+    result.radiance =
+        (diffuse_color(s) * sky_radiance(frame, result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
+         f * sky_radiance(frame, normalize_or(mirror, s.normal))) *
+        s.occlusion;
     return result;
   }
   float falloff = 1.0f;
@@ -196,8 +206,9 @@ FN LightSample sample_light(LightRecord light, FrameRecord frame, Surface s, vec
   return result;
 }
 
-// From just above the surface to just before the light. A position is off by less than 2^-21 of the surface's reach (three
-// products and their sum, each by half an ulp), and so is the t that traversal finds for the triangle that it lies on.
+// From just above the surface to just before the light. A position is off by less than 2^-21 of the surface's
+// reach (three products and their sum, each by half an ulp), and so is the t that traversal finds for the
+// triangle that it lies on.
 FN Ray shadow_ray(Surface s, LightSample light) {
   float offset = s.reach * 1.9073486e-6f;  // 2^-19
   Ray ray;
@@ -208,13 +219,15 @@ FN Ray shadow_ray(Surface s, LightSample light) {
   return ray;
 }
 
-// Exposure, then a filmic curve (the rational fit of the ACES curve by Narkowicz, 2016) or none, then the sRGB encoding.
+// Exposure, then a filmic curve (the rational fit of the ACES curve by Narkowicz, 2016) or none, then the
+// sRGB encoding.
 FN vec3 display_color(FrameRecord frame, vec3 radiance) {
   vec3 x = max3(radiance * frame.exposure, vec3(0.0f, 0.0f, 0.0f));
   x = vec3(min2(x.x, 1e6f), min2(x.y, 1e6f), min2(x.z, 1e6f));
   if (frame.filmic != 0u) {
     vec3 y = x * 0.6f;  // the fit is 1/0.6 brighter than the curve it follows
-    x = (y * (y * 2.51f + vec3(0.03f, 0.03f, 0.03f))) / (y * (y * 2.43f + vec3(0.59f, 0.59f, 0.59f)) + vec3(0.14f, 0.14f, 0.14f));
+    x = (y * (y * 2.51f + vec3(0.03f, 0.03f, 0.03f))) /
+        (y * (y * 2.43f + vec3(0.59f, 0.59f, 0.59f)) + vec3(0.14f, 0.14f, 0.14f));
   }
   return vec3(linear_to_srgb(saturate(x.x)), linear_to_srgb(saturate(x.y)), linear_to_srgb(saturate(x.z)));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// From a hit to the surface there: which triangle of the input, where on it, which material, which normal. Included by
-// kernels behind the buffers it names, and by the CPU fallback inside a struct whose members have those names; LOAD4,
-// LOAD1 and count_read mean the same in both.
+// From a hit to the surface there: which triangle of the input, where on it, which material, which normal.
+// Included by kernels behind the buffers it names, and by the CPU fallback inside a struct whose members have
+// those names; LOAD4, LOAD1 and count_read mean the same in both.
 
 // Where a hit lies on the input.
 struct SurfacePoint {
-  uint texel[3];   // of the corners of the triangle that was hit
+  uint texel[3];  // of the corners of the triangle that was hit
   float weight[3];
   vec3 corner[3];  // their positions
   uint triangle;   // of the assembly
@@ -51,8 +51,10 @@ FN SurfacePoint locate(uint primitive, float u, float v) {
     LOAD4(s1, texel_map, point.texel[1]);
     LOAD4(s2, texel_map, point.texel[2]);
     point.triangle = s0.x;
-    point.b1 = uintBitsToFloat(s0.y) * point.weight[0] + uintBitsToFloat(s1.y) * u + uintBitsToFloat(s2.y) * v;
-    point.b2 = uintBitsToFloat(s0.z) * point.weight[0] + uintBitsToFloat(s1.z) * u + uintBitsToFloat(s2.z) * v;
+    point.b1 =
+        uintBitsToFloat(s0.y) * point.weight[0] + uintBitsToFloat(s1.y) * u + uintBitsToFloat(s2.y) * v;
+    point.b2 =
+        uintBitsToFloat(s0.z) * point.weight[0] + uintBitsToFloat(s1.z) * u + uintBitsToFloat(s2.z) * v;
   }
   LOAD4(bits, triangles, point.triangle);
   point.vertex[0] = bits.x;
@@ -95,27 +97,29 @@ FN vec4 sample_texture(uint index, vec4 uvs, bool decode) {
   TexelPair y = texel_pair(uv.y, image.height, image.wrap_v, image.nearest);
   vec4 top = texel_color(image.first_texel + y.first * image.width + x.first, decode) * (1.0f - x.weight) +
              texel_color(image.first_texel + y.first * image.width + x.second, decode) * x.weight;
-  vec4 bottom = texel_color(image.first_texel + y.second * image.width + x.first, decode) * (1.0f - x.weight) +
-                texel_color(image.first_texel + y.second * image.width + x.second, decode) * x.weight;
+  vec4 bottom =
+      texel_color(image.first_texel + y.second * image.width + x.first, decode) * (1.0f - x.weight) +
+      texel_color(image.first_texel + y.second * image.width + x.second, decode) * x.weight;
   return top * (1.0f - y.weight) + bottom * y.weight;
 }
 
 // Base colour and alpha: factor, texture, vertex colour.
 FN vec4 base_color_at(MaterialRecord material, SurfacePoint point, vec4 uvs) {
   vec4 color = material.base_color;
-  if (material.base_color_texture != no_index) color = color * sample_texture(material.base_color_texture, uvs, true);
+  if (material.base_color_texture != no_index)
+    color = color * sample_texture(material.base_color_texture, uvs, true);
   uvec4 n0;
   uvec4 n1;
   uvec4 n2;
   LOAD4(n0, normals, point.vertex[0]);
   LOAD4(n1, normals, point.vertex[1]);
   LOAD4(n2, normals, point.vertex[2]);
-  return color * (unpack_vertex_color(n0.w) * (1.0f - point.b1 - point.b2) + unpack_vertex_color(n1.w) * point.b1 +
-                  unpack_vertex_color(n2.w) * point.b2);
+  return color * (unpack_vertex_color(n0.w) * (1.0f - point.b1 - point.b2) +
+                  unpack_vertex_color(n1.w) * point.b1 + unpack_vertex_color(n2.w) * point.b2);
 }
 
-// Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set`, on the side of
-// `normal`.
+// Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set`, on
+// the side of `normal`.
 FN vec4 tangent_at(SurfacePoint point, uint set, vec3 normal) {
   uvec4 t0;
   uvec4 t1;
@@ -145,7 +149,8 @@ FN vec4 tangent_at(SurfacePoint point, uint set, vec3 normal) {
   vec3 down = e2 * uv1.x - e1 * uv2.x;
   float side = area < 0.0f ? -1.0f : 1.0f;
   // glTF's v runs down and a normal map's green up.
-  return vec4(along.x * side, along.y * side, along.z * side, dot3(cross3(normal, along), down) > 0.0f ? -1.0f : 1.0f);
+  return vec4(along.x * side, along.y * side, along.z * side,
+              dot3(cross3(normal, along), down) > 0.0f ? -1.0f : 1.0f);
 }
 
 FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
@@ -155,7 +160,8 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
   count_read(24u);
   vec4 uvs = texcoords_at(point);
   s.texcoord = vec2(uvs.x, uvs.y);
-  s.position = point.corner[0] * point.weight[0] + point.corner[1] * point.weight[1] + point.corner[2] * point.weight[2];
+  s.position = point.corner[0] * point.weight[0] + point.corner[1] * point.weight[1] +
+               point.corner[2] * point.weight[2];
   s.reach = max_component(vec3(abs1(s.position.x), abs1(s.position.y), abs1(s.position.z)));
   for (int i = 0; i < 3; ++i) {
     vec3 away = point.corner[i] - s.position;
@@ -170,8 +176,9 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
   LOAD4(n0, normal_map, point.texel[0]);
   LOAD4(n1, normal_map, point.texel[1]);
   LOAD4(n2, normal_map, point.texel[2]);
-  s.normal = normalize_or(as_vec3(n0) * point.weight[0] + as_vec3(n1) * point.weight[1] + as_vec3(n2) * point.weight[2],
-                          s.geometric);
+  s.normal = normalize_or(
+      as_vec3(n0) * point.weight[0] + as_vec3(n1) * point.weight[1] + as_vec3(n2) * point.weight[2],
+      s.geometric);
   vec4 base = base_color_at(material, point, uvs);
   s.albedo = vec3(base.x, base.y, base.z);
   s.alpha = base.w;

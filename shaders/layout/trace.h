@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A ray against a bound, a quad and the order of the tree: what every traversal shares, whatever its path.
 //
-// A hit is defined without reference to any path, so that all traversals agree to the bit: the ray passes the quad's own
-// bound (slabs widened by a margin), passes one of its triangles by the sign of the edge functions, t is that of the
-// triangle's plane but never less than the entry into the quad's bound. Bounds above a quad contain it and slab distances
-// are monotonic, so no traversal that cuts by the nearest t can lose such a hit. Equal t go to the lower primitive.
+// A hit is defined without reference to any path, so that all traversals agree to the bit: the ray passes the
+// quad's own bound (slabs widened by a margin), passes one of its triangles by the sign of the edge
+// functions, t is that of the triangle's plane but never less than the entry into the quad's bound. Bounds
+// above a quad contain it and slab distances are monotonic, so no traversal that cuts by the nearest t can
+// lose such a hit. Equal t go to the lower primitive.
 #ifndef LODESTONE_LAYOUT_TRACE_H
 #define LODESTONE_LAYOUT_TRACE_H
 
@@ -20,7 +21,8 @@ struct Ray {
   float tmax;  // ... and not beyond tmax; negative: no ray
 };
 
-// From its two quads in a buffer. One that is not finite is no ray: it would pass comparisons with bounds by chance.
+// From its two quads in a buffer. One that is not finite is no ray: it would pass comparisons with bounds by
+// chance.
 FN Ray stored_ray(uvec4 from, uvec4 along) {
   Ray ray;
   ray.origin = vec3(uintBitsToFloat(from.x), uintBitsToFloat(from.y), uintBitsToFloat(from.z));
@@ -48,10 +50,10 @@ struct Slabs {
   uint octant;  // bit i: direction component i is negative
 };
 
-// Rounding moves the corners of a sheared triangle by less than 2^-20.4 of the largest coordinate in play (difference to
-// the origin 2^-23, shear factor and its product 2^-22 and 2^-23, their difference 2^-22), and slab distances are off by
-// 2^-21.4 of it. Bounds are widened by more than both together, or a ray through an edge could pass beside the bound of
-// the very triangle that claims it.
+// Rounding moves the corners of a sheared triangle by less than 2^-20.4 of the largest coordinate in play
+// (difference to the origin 2^-23, shear factor and its product 2^-22 and 2^-23, their difference 2^-22), and
+// slab distances are off by 2^-21.4 of it. Bounds are widened by more than both together, or a ray through an
+// edge could pass beside the bound of the very triangle that claims it.
 CONST float slab_margin = 1.9073486e-6f;  // 2^-19
 
 // Directions below 2^-40 count as that, so that no slab distance is 0 * infinity.
@@ -67,11 +69,13 @@ FN Slabs make_slabs(Ray ray, float extent) {
   Slabs s;
   s.octant = (ray.direction.x < 0.0f ? 1u : 0u) | (ray.direction.y < 0.0f ? 2u : 0u) |
              (ray.direction.z < 0.0f ? 4u : 0u);
-  vec3 signed_margin = vec3(ray.direction.x < 0.0f ? -margin : margin, ray.direction.y < 0.0f ? -margin : margin,
-                            ray.direction.z < 0.0f ? -margin : margin);
+  vec3 signed_margin =
+      vec3(ray.direction.x < 0.0f ? -margin : margin, ray.direction.y < 0.0f ? -margin : margin,
+           ray.direction.z < 0.0f ? -margin : margin);
   s.near_origin = ray.origin + signed_margin;
   s.far_origin = ray.origin - signed_margin;
-  s.inverse = vec3(slab_inverse(ray.direction.x), slab_inverse(ray.direction.y), slab_inverse(ray.direction.z));
+  s.inverse =
+      vec3(slab_inverse(ray.direction.x), slab_inverse(ray.direction.y), slab_inverse(ray.direction.z));
   return s;
 }
 
@@ -89,16 +93,17 @@ FN float slab_exit(Slabs s, vec3 lo, vec3 hi, float tmax) {
   return min2(min2(x, y), min2(z, tmax));
 }
 
-// Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection": space is sheared so that the ray runs along z
-// through (0, 0). Each corner is sheared once and alike for all triangles that have it, and the rounded products of a 2D edge
-// function never get its sign wrong, at worst they say 0. So with 0 counted as inside for both triangles at an edge, every
-// point that a closed surface covers is covered by one of its triangles, at edges and at vertices. (Signed volumes from
-// rounded 3D products are consistent along edges, but round a vertex all of them can fall on one side.)
+// Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection": space is sheared so that the ray runs
+// along z through (0, 0). Each corner is sheared once and alike for all triangles that have it, and the
+// rounded products of a 2D edge function never get its sign wrong, at worst they say 0. So with 0 counted as
+// inside for both triangles at an edge, every point that a closed surface covers is covered by one of its
+// triangles, at edges and at vertices. (Signed volumes from rounded 3D products are consistent along edges,
+// but round a vertex all of them can fall on one side.)
 struct Shear {
   uint axis;  // the direction's largest component, which becomes z
   float x;
   float y;
-  float z;    // t per unit of that component
+  float z;  // t per unit of that component
 };
 
 FN Shear make_shear(Ray ray) {
@@ -124,18 +129,20 @@ FN vec3 sheared(vec3 point, vec3 origin, Shear shear) {
 }
 
 // On which side of the edge p q the ray passes. Swapping p and q flips the sign and nothing else.
-FN float edge_function(vec3 p, vec3 q) { return p.x * q.y - p.y * q.x; }
+FN float edge_function(vec3 p, vec3 q) {
+  return p.x * q.y - p.y * q.x;
+}
 
 FN bool one_sided(float a, float b, float c) {
   return (a >= 0.0f && b >= 0.0f && c >= 0.0f) || (a <= 0.0f && b <= 0.0f && c <= 0.0f);
 }
 
-// w0, w1, w2: the edge functions opposite p0, p1, p2. t is a mean of the corners' with weights of one sign, so it cannot
-// leave their range however small the triangle is.
-// A ray that a mask let through goes on from tmin and behind primitive `passed`, so that what lies in the same plane is
-// met as well; no_index: there is none.
-FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, uint passed, float enter,
-                        uint primitive, INOUT(Hit) best) {
+// w0, w1, w2: the edge functions opposite p0, p1, p2. t is a mean of the corners' with weights of one sign,
+// so it cannot leave their range however small the triangle is. A ray that a mask let through goes on from
+// tmin and behind primitive `passed`, so that what lies in the same plane is met as well; no_index: there is
+// none.
+FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, uint passed,
+                        float enter, uint primitive, INOUT(Hit) best) {
   float sum = w0 + w1 + w2;
   if (one_sided(w0, w1, w2) && sum != 0.0f) {
     float t = (w0 * p0.z + w1 * p1.z + w2 * p2.z) / sum;
@@ -151,20 +158,22 @@ FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2,
 }
 
 // Both triangles of the quad a b c d by its five edge functions. `enter`: slab_enter of the quad's own bound.
-FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, uint passed, float enter, uint texel,
-                       INOUT(Hit) best) {
+FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, uint passed, float enter,
+                       uint texel, INOUT(Hit) best) {
   a = sheared(a, ray.origin, shear);
   b = sheared(b, ray.origin, shear);
   c = sheared(c, ray.origin, shear);
   d = sheared(d, ray.origin, shear);
   float bc = edge_function(b, c);
-  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, passed, enter, 2u * texel, best);
-  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, passed, enter, 2u * texel + 1u, best);
+  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, passed, enter, 2u * texel,
+                  best);
+  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, passed, enter,
+                  2u * texel + 1u, best);
 }
 
-// A place in the tree in visiting order, without a stack: two bits a level. `turns` holds, for each level on the path,
-// which child the parent's order visits first (xor mask), `order` the position in visiting order; the node's index is
-// order ^ turns.
+// A place in the tree in visiting order, without a stack: two bits a level. `turns` holds, for each level on
+// the path, which child the parent's order visits first (xor mask), `order` the position in visiting order;
+// the node's index is order ^ turns.
 struct Walk {
   uint depth;
   uint order;
@@ -173,7 +182,9 @@ struct Walk {
 
 CONST uint walk_done = 0xffu;  // Walk::depth after the last node
 
-FN uint walk_address(Walk walk) { return level_base(walk.depth) + (walk.order ^ walk.turns); }
+FN uint walk_address(Walk walk) {
+  return level_base(walk.depth) + (walk.order ^ walk.turns);
+}
 
 // To the first child that `first` (two bits) says.
 FN Walk walk_down(Walk walk, uint first) {
@@ -194,13 +205,17 @@ FN Walk walk_on(Walk walk) {
   return walk;
 }
 
-// Traversal states between dispatches: { order, turns, 4 * depth + status, passed } or { link, 0, status, passed };
-// `passed` as accept_triangle has it.
+// Traversal states between dispatches: { order, turns, 4 * depth + status, passed } or { link, 0, status,
+// passed }; `passed` as accept_triangle has it.
 CONST uint trace_finished = 0u;
 CONST uint trace_unfinished = 1u;
 CONST uint trace_restart = 2u;  // from the root, with nothing hit (the ray's tmin has moved)
-FN uint trace_status(uvec4 state) { return state.z & 3u; }
-FN uint trace_depth(uvec4 state) { return state.z >> 2u; }
+FN uint trace_status(uvec4 state) {
+  return state.z & 3u;
+}
+FN uint trace_depth(uvec4 state) {
+  return state.z >> 2u;
+}
 
 struct TracePush {
   uint rays;

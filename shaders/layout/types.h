@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bridge between the two languages: every header of this folder is compiled as GLSL by the kernels and as C++ by
-// the host and the CPU fallback. What is written in them uses only operations that give the same bits in both:
+// The bridge between the two languages: every header of this folder is compiled as GLSL by the kernels and as
+// C++ by the host and the CPU fallback. What is written in them uses only operations that give the same bits
+// in both:
 // + - * / sqrt floor, comparisons, selects and integers. (The shader build rejects the others.)
 #ifndef LODESTONE_LAYOUT_TYPES_H
 #define LODESTONE_LAYOUT_TYPES_H
@@ -28,11 +29,21 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 using uint = uint32_t;
-FN uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
-FN float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
-FN int findLSB(uint x) { return x == 0 ? -1 : std::countr_zero(x); }
-FN int findMSB(uint x) { return x == 0 ? -1 : 31 - std::countl_zero(x); }
-FN int bitCount(uint x) { return std::popcount(x); }
+FN uint floatBitsToUint(float x) {
+  return std::bit_cast<uint>(x);
+}
+FN float uintBitsToFloat(uint x) {
+  return std::bit_cast<float>(x);
+}
+FN int findLSB(uint x) {
+  return x == 0 ? -1 : std::countr_zero(x);
+}
+FN int findMSB(uint x) {
+  return x == 0 ? -1 : 31 - std::countl_zero(x);
+}
+FN int bitCount(uint x) {
+  return std::popcount(x);
+}
 FN uint bitfieldReverse(uint x) {
   x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
   x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
@@ -40,8 +51,12 @@ FN uint bitfieldReverse(uint x) {
   x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
   return (x >> 16) | (x << 16);
 }
-FN float sqrt(float x) { return std::sqrt(x); }
-FN float floor(float x) { return std::floor(x); }
+FN float sqrt(float x) {
+  return std::sqrt(x);
+}
+FN float floor(float x) {
+  return std::floor(x);
+}
 LODESTONE_LAYOUT_END
 
 #else
