@@ -67,14 +67,11 @@ class SurfaceKernel : public Kernel<Probe> {
   static vec4 unpack_vertex_color(uint rgba) {
     return layout::unpack_vertex_color(rgba);
   }
-  static float abs1(float x) {
-    return layout::abs1(x);
-  }
   static float max2(float a, float b) {
     return layout::max2(a, b);
   }
-  static float max_component(vec3 v) {
-    return layout::max_component(v);
+  static float largest_abs(vec3 v) {
+    return layout::largest_abs(v);
   }
   static vec2 transform_texcoord(const TextureRecord& record, vec2 uv) {
     return layout::transform_texcoord(record, uv);

@@ -27,9 +27,8 @@ class TraceKernel : public Kernel<Probe> {
 
   // The largest absolute coordinate of the root's bound.
   float scene_extent() {
-    const glm::vec3 a = as_vec3(this->load(nodes_lo_, 0)), b = as_vec3(this->load(nodes_hi_, 0));
-    return layout::max2(layout::max_component({layout::abs1(a.x), layout::abs1(a.y), layout::abs1(a.z)}),
-                        layout::max_component({layout::abs1(b.x), layout::abs1(b.y), layout::abs1(b.z)}));
+    return layout::max2(layout::largest_abs(as_vec3(this->load(nodes_lo_, 0))),
+                        layout::largest_abs(as_vec3(this->load(nodes_hi_, 0))));
   }
 
   // False: this ray has nothing to do in this dispatch.

@@ -36,9 +36,7 @@ float scene_extent() {
   uvec4 hi;
   LOAD4(lo, nodes_lo, 0u);
   LOAD4(hi, nodes_hi, 0u);
-  vec3 a = as_vec3(lo);
-  vec3 b = as_vec3(hi);
-  return max2(max_component(vec3(abs1(a.x), abs1(a.y), abs1(a.z))), max_component(vec3(abs1(b.x), abs1(b.y), abs1(b.z))));
+  return max2(largest_abs(as_vec3(lo)), largest_abs(as_vec3(hi)));
 }
 
 void count_step() {

@@ -35,6 +35,9 @@ FN vec3 max3(vec3 a, vec3 b) {
 FN float max_component(vec3 a) {
   return max2(a.x, max2(a.y, a.z));
 }
+FN float largest_abs(vec3 a) {
+  return max_component(vec3(abs1(a.x), abs1(a.y), abs1(a.z)));
+}
 FN float dot3(vec3 a, vec3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -62,7 +65,7 @@ FN float flush_lost(float x) {
 // v / |v|; `fallback` where v is too short to have a direction.
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
   v = vec3(flush_lost(v.x), flush_lost(v.y), flush_lost(v.z));
-  float scale = max_component(vec3(abs1(v.x), abs1(v.y), abs1(v.z)));
+  float scale = largest_abs(v);
   if (!(scale > 0.0f)) return fallback;
   vec3 s = vec3(v.x / scale, v.y / scale, v.z / scale);
   float length = sqrt(dot3(s, s));

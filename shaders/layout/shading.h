@@ -56,18 +56,16 @@ FN vec2 transform_texcoord(TextureRecord texture_record, vec2 uv) {
               texture_record.v_row.x * uv.x + texture_record.v_row.y * uv.y + texture_record.v_row.z);
 }
 
-// A vertex colour as stored: the square roots of R, G and B, which keeps dark tones apart, and A.
-FN vec4 unpack_vertex_color(uint rgba) {
-  vec4 c =
-      vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u), float(rgba >> 24u)) /
-      255.0f;
-  return vec4(c.x * c.x, c.y * c.y, c.z * c.z, c.w);
-}
-
 FN vec4 unpack_rgba8(uint rgba) {
   return vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u),
               float(rgba >> 24u)) /
          255.0f;
+}
+
+// A vertex colour as stored: the square roots of R, G and B, which keeps dark tones apart, and A.
+FN vec4 unpack_vertex_color(uint rgba) {
+  vec4 c = unpack_rgba8(rgba);
+  return vec4(c.x * c.x, c.y * c.y, c.z * c.z, c.w);
 }
 
 FN vec3 sky_radiance(FrameRecord frame, vec3 direction) {

@@ -162,11 +162,8 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
   s.texcoord = vec2(uvs.x, uvs.y);
   s.position = point.corner[0] * point.weight[0] + point.corner[1] * point.weight[1] +
                point.corner[2] * point.weight[2];
-  s.reach = max_component(vec3(abs1(s.position.x), abs1(s.position.y), abs1(s.position.z)));
-  for (int i = 0; i < 3; ++i) {
-    vec3 away = point.corner[i] - s.position;
-    s.reach = max2(s.reach, max_component(vec3(abs1(away.x), abs1(away.y), abs1(away.z))));
-  }
+  s.reach = largest_abs(s.position);
+  for (int i = 0; i < 3; ++i) s.reach = max2(s.reach, largest_abs(point.corner[i] - s.position));
   s.view = from_viewer * -1.0f;
   vec3 across = cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]);
   s.geometric = normalize_or(across, s.view);

@@ -64,7 +64,7 @@ FN float slab_inverse(float d) {
 
 // `extent`: the largest absolute coordinate of the scene's bounds.
 FN Slabs make_slabs(Ray ray, float extent) {
-  float reach = max2(extent, max_component(vec3(abs1(ray.origin.x), abs1(ray.origin.y), abs1(ray.origin.z))));
+  float reach = max2(extent, largest_abs(ray.origin));
   float margin = reach * slab_margin;
   Slabs s;
   s.octant = (ray.direction.x < 0.0f ? 1u : 0u) | (ray.direction.y < 0.0f ? 2u : 0u) |

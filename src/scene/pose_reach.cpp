@@ -5,26 +5,24 @@
 #include <cmath>
 
 #include "lodestone/base/error.h"
+#include "lodestone/layout/arithmetic.h"
 
 namespace lodestone::scene {
 namespace {
-
-float reach(const glm::vec3& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
 
 // Vertices that no triangle has are not drawn.
 float reach(const Mesh& mesh) {
   float largest = 0;
   for (const glm::uvec3& t : mesh.triangles) {
-    for (int corner = 0; corner < 3; ++corner) largest = std::max(largest, reach(mesh.positions[t[corner]]));
+    for (int corner = 0; corner < 3; ++corner)
+      largest = std::max(largest, layout::largest_abs(mesh.positions[t[corner]]));
   }
   return largest;
 }
 
 float reach(const MorphTarget& target) {
   float largest = 0;
-  for (const glm::vec3& delta : target.positions) largest = std::max(largest, reach(delta));
+  for (const glm::vec3& delta : target.positions) largest = std::max(largest, layout::largest_abs(delta));
   return largest;
 }
 
