@@ -27,9 +27,11 @@ class Blend : public Kernel<Probe> {
     const float* base_tangent = push_.tangents != 0 ? this->loaded(base_tangents_, vertex) : nullptr;
     Lanes4 tangent = base_tangent != nullptr ? load_lanes(base_tangent) : all_lanes(0);
     for (uint32_t i = range.x; i < range.y; ++i) {
-      const glm::uvec4 entry = this->load(morph_positions_, i);  // { weight, delta x, y, z }
-      const Lanes4 weight = all_lanes(layout::uintBitsToFloat(this->load(weights_, entry.x)));
-      const Lanes4 delta = without_first(load_lanes(address(morph_positions_, i)));
+      const float* entry =
+          this->loaded(morph_positions_, i);  // { bits of the weight's index, delta x, y, z }
+      const uint32_t index = layout::floatBitsToUint(entry[0]);
+      const Lanes4 weight = all_lanes(layout::uintBitsToFloat(this->load(weights_, index)));
+      const Lanes4 delta = without_first(load_lanes(entry));
       position = position + weight * delta;
       normal = normal + weight * load_lanes(this->loaded(morph_normals_, i));
       if (base_tangent != nullptr) {
@@ -69,10 +71,6 @@ class Blend : public Kernel<Probe> {
   struct Rows {
     Lanes4 r0, r1, r2;
   };
-
-  static const float* address(const Quads& buffer, uint64_t i) {
-    return reinterpret_cast<const float*>(buffer.words + 4 * i);
-  }
 
   HWY_ATTR Rows weighted_matrix(uint32_t influence) {
     const uint64_t matrix = this->load(influences_, 2 * uint64_t(influence));

@@ -34,11 +34,17 @@ HWY_ATTR void trace_rays(Block& block, uint32_t begin, uint32_t end) {
   trace_singles(block, singles, size);
 }
 
-void trace_block(TraceBlock<EmptyProbe>& block, uint32_t begin, uint32_t end) {
-  trace_rays(block, begin, end);
-}
-void trace_counted(TraceBlock<CountingProbe>& block, uint32_t begin, uint32_t end) {
-  trace_rays(block, begin, end);
+// A BlockFunction (kernel.h).
+HWY_ATTR void trace_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,
+                          render::Counters* counters) {
+  if (counters == nullptr) {
+    TraceBlock<EmptyProbe> block(dispatch);
+    trace_rays(block, begin, end);
+  } else {
+    TraceBlock<CountingProbe> block(dispatch);
+    trace_rays(block, begin, end);
+    *counters = block.probe.counts;
+  }
 }
 
 const char* target_name() {
@@ -52,7 +58,6 @@ HWY_AFTER_NAMESPACE();
 namespace lodestone::cpu_fallback {
 
 HWY_EXPORT(trace_block);
-HWY_EXPORT(trace_counted);
 HWY_EXPORT(target_name);
 
 std::string simd_target() {
@@ -60,22 +65,7 @@ std::string simd_target() {
 }
 
 void trace_wide(const CpuDispatch& dispatch) {
-  if (!dispatch.counting) {
-    const auto trace = HWY_DYNAMIC_DISPATCH(trace_block);
-    parallel_for(dispatch.invocations, trace_grain, [&](uint64_t begin, uint64_t end) {
-      TraceBlock<EmptyProbe> block(dispatch);
-      trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
-    });
-    return;
-  }
-  const auto trace = HWY_DYNAMIC_DISPATCH(trace_counted);
-  std::mutex mutex;
-  parallel_for(dispatch.invocations, trace_grain, [&](uint64_t begin, uint64_t end) {
-    TraceBlock<CountingProbe> block(dispatch);
-    trace(block, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
-    const std::lock_guard lock(mutex);
-    add_counters(*dispatch.counters, block.probe.counts);
-  });
+  run_blocks(dispatch, trace_grain, HWY_DYNAMIC_DISPATCH(trace_block));
 }
 
 }  // namespace lodestone::cpu_fallback
