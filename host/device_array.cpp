@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <limits>
 #include <utility>
 
-#include "lodestone/base/error.h"
 #include "lodestone/host/check.h"
 
 namespace lodestone::host {

@@ -43,8 +43,7 @@ class DeviceArray {
  public:
   static constexpr uint64_t max_segments = 8192;
 
-  // `bytes` > 0, a multiple of 4; contents are undefined. Throws Error(device) where the device cannot show
-  // an array of so many bytes to any kernel.
+  // `bytes` > 0, a multiple of 4, at most limits.array_bytes(element_bytes); contents are undefined.
   DeviceArray(const Device& device, MemoryAllocator& memory, const ArrayLimits& limits, uint64_t bytes,
               uint32_t element_bytes, const std::string& name);
 

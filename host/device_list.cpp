@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <limits>
 
 #include "lodestone/base/error.h"
+#include "lodestone/host/device_array.h"
 #include "lodestone/host/driver_files.h"
 
 namespace lodestone::host {
@@ -111,13 +113,6 @@ bool uses_texel_buffers(const PhysicalDevice& device, TexelBuffers choice) {
   return device.texel_formats && device.limits().maxTexelBufferElements >= texel_elements_wanted;
 }
 
-uint64_t max_buffer_bytes(const PhysicalDevice& device, bool texel_buffers, uint32_t element_bytes) {
-  const bool is_texel = texel_buffers && (element_bytes == 4 || element_bytes == 16);
-  const uint64_t range = is_texel ? uint64_t(device.limits().maxTexelBufferElements) * element_bytes
-                                  : device.limits().maxStorageBufferRange;
-  return std::min(range, device.max_buffer_size);
-}
-
 DeviceDetails describe_device(const PhysicalDevice& device, uint32_t index, bool texel_buffers) {
   DeviceDetails details;
   details.kind = "gpu";
@@ -129,11 +124,13 @@ DeviceDetails describe_device(const PhysicalDevice& device, uint32_t index, bool
   details.api = api_version(device.properties.apiVersion);
   details.index = index;
   details.subgroup_size = std::max(1u, device.properties11.subgroupSize);
-  details.max_buffer_bytes =
-      std::min(max_buffer_bytes(device, texel_buffers, 4), max_buffer_bytes(device, texel_buffers, 16));
   details.cuts_loops = device.cuts_loops();
   details.lacks = list_lacks(device);
   details.unusable = missing_requirements(device);
+  if (details.unusable.empty()) {
+    const ArrayLimits limits(device, texel_buffers, std::numeric_limits<uint64_t>::max());
+    details.max_buffer_bytes = std::min(limits.whole_bytes(4), limits.whole_bytes(16));
+  }
   details.properties = list_properties(device, texel_buffers);
   return details;
 }

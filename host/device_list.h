@@ -27,9 +27,6 @@ struct DeviceDetails : render::DeviceInfo {
 // Whether word and quad buffers become texel buffers.
 bool uses_texel_buffers(const PhysicalDevice& device, TexelBuffers choice);
 
-// The largest buffer of elements of that size, in bytes.
-uint64_t max_buffer_bytes(const PhysicalDevice& device, bool texel_buffers, uint32_t element_bytes);
-
 DeviceDetails describe_device(const PhysicalDevice& device, uint32_t index, bool texel_buffers);
 
 // All Vulkan devices, the usable and the others; empty where there is no driver.
