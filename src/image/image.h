@@ -48,10 +48,10 @@ struct Image {
   Channel& add_ids(const std::string& name);
 };
 
-// EXR: every channel, float or uint, in the native format, ZIP; metadata as string attributes, the
-// camera as matrices. PNG: R G B (A
-// where there is one), or a lone Y as grey, as they are (already tone-mapped and encoded; alpha is neither
-// multiplied in nor divided out), clamped to 0..1, NaN as 0, 8 bits by floor(255 x + 0.5); metadata as tEXt.
+// EXR: every channel, float or uint, in the native format, ZIP; metadata as string attributes, the camera as
+// matrices. PNG: R G B (A where there is one), or a lone Y as grey, as they are (already tone-mapped and
+// encoded; alpha is neither multiplied in nor divided out), clamped to 0..1, NaN as 0, 8 bits by
+// floor(255 x + 0.5); metadata as tEXt.
 // Both are byte-identical for equal input (no time stamps), and appear whole or not at all. Throws
 // Error(usage) for another extension, for a PNG without R G B, and for metadata whose name is reserved;
 // Error(machine) where it cannot be written; std::invalid_argument where a channel has not width x height
@@ -68,6 +68,10 @@ Image read(const std::filesystem::path& path);
 // R G B for a PNG: encoded by the sRGB curve where they are linear, clamped to 0..1, NaN as 0. Of an image
 // without R G B its first channel as grey, from the smallest to the largest finite sample; ids so too.
 Image for_display(const Image& image);
+
+// A picture of float channels, its sides divided by the least whole number (rounded up) that makes none
+// longer than `longest`: the means of the pixels. Without metadata.
+Image shrunk(const Image& image, uint32_t longest);
 
 // Tiles of equal size in rows of `columns`, their R G B only, a label above each: printable ASCII ('?' stands
 // for the rest), in as large letters as let all of it fit, cut where the smallest do not. Encoded as the
