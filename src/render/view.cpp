@@ -34,16 +34,13 @@ View scene_view(const scene::Scene& scene, const scene::Pose& pose, uint32_t nod
   return view;
 }
 
-float largest_of(const vec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 // A node that is scaled to nothing, or placed beyond all numbers, shows nothing and says nothing.
 View checked(const scene::Scene& scene, View view) {
-  const float sum =
-      largest_of(view.origin) + largest_of(view.right) + largest_of(view.up) + largest_of(view.forward);
-  const bool flat = largest_of(view.right) == 0 || largest_of(view.up) == 0 || largest_of(view.forward) == 0;
-  if (flat || !(sum <= 10 * scene::largest_reach)) {
+  // Written so that what is no number fails.
+  const auto has_length = [](const vec3& v) { return glm::dot(v, v) > 0; };
+  const bool has_size = has_length(view.right) && has_length(view.up) && has_length(view.forward);
+  const vec3 all = glm::abs(view.origin) + glm::abs(view.right) + glm::abs(view.up) + glm::abs(view.forward);
+  if (!has_size || !(all.x + all.y + all.z <= 10 * scene::largest_reach)) {
     fail_input(scene.name, "camera {} has no size or lies too far out to see; use another --camera, or auto",
                view.name.empty() ? "(without a name)" : view.name);
   }
@@ -91,7 +88,7 @@ layout::LightRecord light_record(const scene::Light& light, const glm::mat4& wor
   }
   record.position = vec3(world[3]);
   const vec3 back = vec3(world[2]);
-  record.direction = largest_of(back) > 0 ? -glm::normalize(back) : vec3(0, 0, -1);
+  record.direction = glm::dot(back, back) > 0 ? -glm::normalize(back) : vec3(0, 0, -1);
   record.range = light.range;
   record.color = light.color * light.intensity;
   const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
