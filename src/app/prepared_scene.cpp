@@ -45,14 +45,10 @@ scene::Bounds PreparedScene::bounds() const {
   const double duration = animation == scene::none ? 0 : scene.animations[animation].duration();
   const auto steps = duration > 0 ? uint32_t(std::clamp(std::ceil(samples_per_second * duration),
                                                         double(fewest_samples), double(most_samples)))
-                                  : 1;
-  scene::Bounds all;
-  for (uint32_t step = 0; step <= steps; ++step) {
-    const scene::Bounds moment = scene::pose_bounds(scene, pose_at(duration * step / steps));
-    if (moment.empty) continue;
-    all.include(moment.lo);
-    all.include(moment.hi);
-  }
+                                  : 0;
+  scene::Bounds all = scene::pose_bounds(scene, pose_at(0));
+  for (uint32_t step = 1; step <= steps; ++step)
+    all.include(scene::pose_bounds(scene, pose_at(duration * step / steps)));
   return all;
 }
 

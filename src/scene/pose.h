@@ -38,6 +38,7 @@ struct Bounds {
   glm::vec3 lo{0}, hi{0};
   bool empty = true;
   void include(const glm::vec3& point);
+  void include(const Bounds& other);
 };
 
 // World bounds of all meshes, from vertices morphed and skinned on the CPU; multi-threaded. Vertices that no

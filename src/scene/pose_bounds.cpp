@@ -3,7 +3,6 @@
 // order, so that the result is the same for any number of threads.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/parallel.h"
@@ -12,16 +11,10 @@
 namespace lodestone::scene {
 namespace {
 
-Bounds joined(Bounds a, const Bounds& b) {
-  if (b.empty) return a;
-  a.include(b.lo);
-  a.include(b.hi);
-  return a;
-}
-
-Bounds joined(const std::vector<Bounds>& all) {
-  return std::accumulate(all.begin(), all.end(), Bounds(),
-                         [](const Bounds& a, const Bounds& b) { return joined(a, b); });
+Bounds joined(const std::vector<Bounds>& parts) {
+  Bounds all;
+  for (const Bounds& part : parts) all.include(part);
+  return all;
 }
 
 std::vector<glm::vec3> morphed(const Mesh& mesh, const std::vector<float>& weights) {
@@ -73,6 +66,12 @@ void Bounds::include(const glm::vec3& point) {
   lo = empty ? point : glm::min(lo, point);
   hi = empty ? point : glm::max(hi, point);
   empty = false;
+}
+
+void Bounds::include(const Bounds& other) {
+  if (other.empty) return;
+  include(other.lo);
+  include(other.hi);
 }
 
 Bounds pose_bounds(const Scene& scene, const Pose& pose) {
