@@ -13,25 +13,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The array `name`, which the outline has found to be one of objects; empty where there is none.
-Json::array_t& array_of(Json& document, const char* name) {
-  static Json::array_t nothing;
-  nothing.clear();
-  const auto found = document.find(name);
-  return found == document.end() ? nothing : found->get_ref<Json::array_t&>();
-}
-
 class Preparation {
  public:
   explicit Preparation(const GltfContainer& gltf) : document_(Json::parse(gltf.json)) {}
 
   PreparedGltf prepare(const GltfOutline& outline) {
-    Json::array_t& buffers = array_of(document_, "buffers");
+    Json::array_t& buffers = array_of("buffers");
     for (size_t i = 0; i < buffers.size(); ++i) replace_uri(buffers[i], fmt::format("buffers[{}]", i), true);
-    Json::array_t& images = array_of(document_, "images");
+    Json::array_t& images = array_of("images");
     for (size_t i = 0; i < images.size(); ++i) replace_uri(images[i], fmt::format("images[{}]", i), false);
-    const bool has_views = !array_of(document_, "bufferViews").empty();
-    Json::array_t& accessors = array_of(document_, "accessors");
+    const bool has_views = !array_of("bufferViews").empty();
+    Json::array_t& accessors = array_of("accessors");
     for (uint32_t index : outline.viewless_indices) {
       if (!has_views || index >= accessors.size() || accessors[index].contains("bufferView")) continue;
       accessors[index]["bufferView"] = 0;
@@ -42,6 +34,12 @@ class Preparation {
   }
 
  private:
+  // The array `name`, which the outline has found to be one of objects; empty where there is none.
+  Json::array_t& array_of(const char* name) {
+    const auto found = document_.find(name);
+    return found == document_.end() ? nothing_ : found->get_ref<Json::array_t&>();
+  }
+
   void replace_uri(Json& object, std::string place, bool is_buffer) {
     const auto uri = object.find("uri");
     if (uri == object.end() || uri->get_ref<const std::string&>().empty()) return;
@@ -57,6 +55,7 @@ class Preparation {
   }
 
   Json document_;
+  Json::array_t nothing_;
   std::map<std::string, size_t> images_;  // by uri
   PreparedGltf prepared_;
 };

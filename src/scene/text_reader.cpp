@@ -6,6 +6,8 @@
 #include <cmath>
 #include <system_error>
 
+#include "lodestone/base/plain_line.h"
+
 namespace lodestone::scene {
 namespace {
 
@@ -130,11 +132,7 @@ std::string shown(std::string_view name, size_t longest) {
   if (end < name.size()) {
     while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
   }
-  std::string text(name.substr(0, end));
-  constexpr char del = 127;
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ' || c == del) c = '?';
-  }
+  const std::string text = plain_line(std::string(name.substr(0, end)));
   return end < name.size() ? text + "..." : text;
 }
 
