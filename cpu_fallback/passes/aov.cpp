@@ -1,54 +1,73 @@
 // SPDX-License-Identifier: MIT
-#include "lodestone/cpu_fallback/passes/surface_kernel.h"
+#include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/shading.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/aov.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
 
-using glm::uvec4;
-using layout::floatBitsToUint;
-using layout::uintBitsToFloat;
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/varying/surface_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
 class Aov : public SurfaceKernel<Probe> {
  public:
   using SurfaceKernel<Probe>::SurfaceKernel;
 
-  void operator()(uint32_t index) {
-    const layout::FrameRecord& frame = this->frames[0];
-    uint32_t px = 0, py = 0;
-    if (!layout::ray_pixel(push_.first_ray + index, frame.width, frame.height, px, py)) return;
-    const uvec4 hit = this->load(this->hits, index);
-    const uint32_t visited = this->load(steps_, index);
-    const uint64_t pixel = uint64_t(py) * frame.width + px;
-    uvec4 first(0x7f800000u, 0, 0, 0), second(0), third(0, 0, layout::no_index, layout::no_index);
-    if (hit.w != layout::no_index) {
-      const uvec4 along = this->load(rays_, 2 * uint64_t(index) + 1);
-      const auto point = this->locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
-      const layout::Surface surface = this->surface_at(point, as_vec3(along));
-      const layout::PartRecord& part = this->parts[point.part];
-      const uvec4 normal = as_bits(surface.normal, 0);
-      first = uvec4(hit.x, normal.x, normal.y, normal.z);
-      second = as_bits(surface.albedo, 0);
-      third = uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y), part.mesh,
-                    part.first_mesh_triangle + (point.triangle - part.first_triangle));
+  HWY_ATTR void operator()() {
+    const uvec1 index = this->own_index();
+    const FrameRecord& frame = this->frames[0];
+    uvec1 px, py;
+    const Where inside(*this, ray_pixel(push_.first_ray + index, frame.width, frame.height, px, py));
+    const uvec4 hit = this->load_own(this->hits);
+    const uvec1 visited = this->load(steps_, index);
+    const uvec1 pixel = py * frame.width + px;
+    uvec4 first(0x7f800000u, 0u, 0u, 0u), second(0u, 0u, 0u, 0u), third(0u, 0u, no_index, no_index);
+    if (const Where here(*this, hit.w != no_index); here.any()) {
+      const vec3 direction = as_vec3(this->load_own(rays_, 2, 1));
+      const auto point = this->locate_hit(hit);
+      this->for_each_part(point, [&](const PartRecord& part, const MaterialRecord& material) HWY_ATTR {
+        const Surface surface = this->surface_at(material, point, direction);
+        const uvec4 normal = as_bits(surface.normal, 0u);
+        first = select(this->active(), uvec4(hit.x, normal.x, normal.y, normal.z), first);
+        second = select(this->active(), as_bits(surface.albedo, 0u), second);
+        const uvec1 triangle = part.first_mesh_triangle + (point.triangle - part.first_triangle);
+        third = select(this->active(),
+                       uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y),
+                             part.mesh, triangle),
+                       third);
+      });
     }
-    this->store(aovs_, 4 * pixel, first);
-    this->store(aovs_, 4 * pixel + 1, second);
-    this->store(aovs_, 4 * pixel + 2, third);
-    this->store(aovs_, 4 * pixel + 3, uvec4(0, visited, 0, 0));
+    this->store(aovs_, pixel, first, 4, 0);
+    this->store(aovs_, pixel, second, 4, 1);
+    this->store(aovs_, pixel, third, 4, 2);
+    this->store(aovs_, pixel, uvec4(0u, visited, 0u, 0u), 4, 3);
   }
 
  private:
   Quads rays_ = this->quads(16);
   Words steps_ = this->words(17);
   Quads aovs_ = this->quads(18);
-  layout::RayPush push_ = this->template push<layout::RayPush>();
+  RayPush push_ = this->template push<RayPush>();
 };
 
-}  // namespace
+LODESTONE_VARYING_BLOCK_FUNCTION(aov, Aov)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(aov_block);
 
 void aov(const CpuDispatch& dispatch) {
-  run_pass<Aov>(dispatch, 512);
+  run_blocks(dispatch, 512, HWY_DYNAMIC_DISPATCH(aov_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

@@ -1,33 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/layout/camera.h"
-
 #include "lodestone/cpu_fallback/passes/passes.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/camera.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/varying/kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
-class Camera : public Kernel<Probe> {
+class Camera : public VaryingKernel<Probe> {
  public:
-  using Kernel<Probe>::Kernel;
+  using VaryingKernel<Probe>::VaryingKernel;
 
-  void operator()(uint32_t index) {
-    const layout::Ray ray =
-        layout::camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered);
-    this->store(rays_, 2 * uint64_t(index), as_bits(ray.origin, layout::floatBitsToUint(ray.tmin)));
-    this->store(rays_, 2 * uint64_t(index) + 1, as_bits(ray.direction, layout::floatBitsToUint(ray.tmax)));
+  HWY_ATTR void operator()() {
+    const uvec1 index = this->own_index();
+    const Ray ray = camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered);
+    this->store_own(rays_, as_bits(ray.origin, floatBitsToUint(ray.tmin)), 2);
+    this->store_own(rays_, as_bits(ray.direction, floatBitsToUint(ray.tmax)), 2, 1);
   }
 
  private:
-  Structs<layout::FrameRecord> frames_ = this->template structs<layout::FrameRecord>(0);
+  Structs<FrameRecord> frames_ = this->template structs<FrameRecord>(0);
   Quads rays_ = this->quads(1);
-  layout::RayPush push_ = this->template push<layout::RayPush>();
+  RayPush push_ = this->template push<RayPush>();
 };
 
-}  // namespace
+LODESTONE_VARYING_BLOCK_FUNCTION(camera, Camera)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(camera_block);
 
 void camera(const CpuDispatch& dispatch) {
-  run_pass<Camera>(dispatch, 2048);
+  run_blocks(dispatch, 2048, HWY_DYNAMIC_DISPATCH(camera_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

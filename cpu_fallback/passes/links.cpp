@@ -1,51 +1,74 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/layout/links.h"
-
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/layout/atlas.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/links.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/varying/kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
-class Links : public Kernel<Probe> {
+class Links : public VaryingKernel<Probe> {
  public:
-  using Kernel<Probe>::Kernel;
+  using VaryingKernel<Probe>::VaryingKernel;
 
-  void operator()(uint32_t index) {
-    const uint32_t address = layout::level_base(push_.depth) + index;
-    uint32_t hit = 4 * address + 1;
-    if (push_.depth == push_.leaf_depth) hit = layout::leaf_flag | this->load(leaf_map_, 2 * uint64_t(index));
-    this->store(links_, 2 * uint64_t(address), hit);
-    this->store(links_, 2 * uint64_t(address) + 1, miss(index));
+  HWY_ATTR void operator()() {
+    const uvec1 index = this->own_index();
+    const uvec1 address = level_base(push_.depth) + index;
+    uvec1 hit = 4u * address + 1u;
+    if (push_.depth == push_.leaf_depth) hit = leaf_flag | this->load(leaf_map_, index, 2);
+    this->store(links_, address, hit, 2);
+    this->store(links_, address, miss(index), 2, 1);
   }
 
  private:
   // The next node that holds a quad and is no descendant; 0: none.
-  uint32_t miss(uint32_t index) {
-    uint32_t depth = push_.depth;
-    uint32_t next = index + 1;
-    for (;;) {
-      const auto up = static_cast<uint32_t>(layout::findLSB(next)) >> 1;
-      if (up >= depth) return 0;
-      const uint32_t place = next >> (2 * up);
-      depth -= up;
-      if (place << (2 * (push_.leaf_depth - depth)) >= push_.slots) return 0;
-      if (depth != push_.leaf_depth || this->load(leaf_map_, 2 * uint64_t(place)) != layout::empty_slot) {
-        return layout::level_base(depth) + place;
+  HWY_ATTR uvec1 miss(uvec1 index) {
+    uvec1 link = 0u, depth = push_.depth, next = index + 1u;
+    bvec1 searching = this->active();
+    while (any_lane(searching)) {
+      const uvec1 up = uvec1(findLSB(next)) >> 1u;
+      const uvec1 place = next >> (2u * up);
+      const uvec1 level = depth - up;
+      // Past the root, or nothing but padding from there on.
+      searching = searching && up < depth && (place << (2u * (push_.leaf_depth - level))) < push_.slots;
+      const bvec1 leaf = searching && level == push_.leaf_depth;
+      bvec1 empty = false;
+      if (const Where leaves(*this, leaf); leaves.any()) {
+        empty = leaf && this->load(leaf_map_, place, 2) == empty_slot;
       }
-      next = place + 1;
+      link = select(searching && !empty, level_base(level) + place, link);
+      searching = empty;
+      next = place + 1u;
+      depth = level;
     }
+    return link;
   }
 
   Words leaf_map_ = this->words(0), links_ = this->words(1);
-  layout::LinksPush push_ = this->template push<layout::LinksPush>();
+  LinksPush push_ = this->template push<LinksPush>();
 };
 
-}  // namespace
+LODESTONE_VARYING_BLOCK_FUNCTION(links, Links)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(links_block);
 
 void links(const CpuDispatch& dispatch) {
-  run_pass<Links>(dispatch, 4096);
+  run_blocks(dispatch, 4096, HWY_DYNAMIC_DISPATCH(links_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

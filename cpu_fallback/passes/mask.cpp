@@ -1,42 +1,66 @@
 // SPDX-License-Identifier: MIT
-#include "lodestone/cpu_fallback/passes/surface_kernel.h"
+#include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/shading.h"
+#include "lodestone/layout/trace.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/mask.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/varying/surface_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
 class Mask : public SurfaceKernel<Probe> {
  public:
   using SurfaceKernel<Probe>::SurfaceKernel;
 
-  void operator()(uint32_t index) {
-    const glm::uvec4 hit = this->load(this->hits, index);
-    if (!is_cut_out(hit)) return;
-    glm::uvec4 from = this->load(rays_, 2 * uint64_t(index));
+  HWY_ATTR void operator()() {
+    const uvec4 hit = this->load_own(this->hits);
+    const Where here(*this, is_cut_out(hit));
+    if (!here.any()) return;
+    uvec4 from = this->load_own(rays_, 2);
     from.w = hit.x;
-    this->store(rays_, 2 * uint64_t(index), from);
-    this->store(states_, index, glm::uvec4(0, 0, layout::trace_restart, hit.w));
-    this->add(pending_, 0, 1);
+    this->store_own(rays_, from, 2);
+    this->store_own(states_, uvec4(0u, 0u, trace_restart, hit.w));
+    this->add(pending_, 0, this->active_count());
   }
 
  private:
-  bool is_cut_out(const glm::uvec4& hit) {
-    if (hit.w == layout::no_index) return false;
-    const auto point = this->locate(hit.w, layout::uintBitsToFloat(hit.y), layout::uintBitsToFloat(hit.z));
-    const layout::MaterialRecord& material = this->materials[this->parts[point.part].material];
-    this->count_read(24);
-    if (material.alpha_mask == 0) return false;
-    return this->base_color_at(material, point, this->texcoords_at(point)).w < material.alpha_cutoff;
+  HWY_ATTR bvec1 is_cut_out(const uvec4& hit) {
+    const Where here(*this, hit.w != no_index);
+    bvec1 cut_out = false;
+    if (!here.any()) return cut_out;
+    const auto point = this->locate_hit(hit);
+    this->for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
+      if (material.alpha_mask == 0) return;
+      const vec4 color = this->base_color_at(material, point, this->texcoords_at(point));
+      cut_out = cut_out || (this->active() && color.w < material.alpha_cutoff);
+    });
+    return cut_out;
   }
 
   Quads rays_ = this->quads(16), states_ = this->quads(17);
   Words pending_ = this->words(18);
 };
 
-}  // namespace
+LODESTONE_VARYING_BLOCK_FUNCTION(mask, Mask)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(mask_block);
 
 void mask(const CpuDispatch& dispatch) {
-  run_pass<Mask>(dispatch, 512);
+  run_blocks(dispatch, 512, HWY_DYNAMIC_DISPATCH(mask_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

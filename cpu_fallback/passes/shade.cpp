@@ -1,67 +1,91 @@
 // SPDX-License-Identifier: MIT
-#include "lodestone/cpu_fallback/passes/surface_kernel.h"
+#include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/shading.h"
 
-namespace lodestone::cpu_fallback {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/shade.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
 
-using glm::uvec4;
-using glm::vec3;
-using glm::vec4;
-using layout::floatBitsToUint;
-using layout::uintBitsToFloat;
+#include <hwy/highway.h>
+
+#include "lodestone/cpu_fallback/varying/surface_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe>
 class Shade : public SurfaceKernel<Probe> {
  public:
   using SurfaceKernel<Probe>::SurfaceKernel;
 
-  void operator()(uint32_t index) {
-    const uvec4 hit = this->load(this->hits, index);
-    const uvec4 along = this->load(rays_, 2 * uint64_t(index) + 1);
-    const layout::FrameRecord& frame = this->frames[0];
+  HWY_ATTR void operator()() {
+    const uvec1 index = this->own_index();
+    const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
+    const FrameRecord& frame = this->frames[0];
     const vec3 direction = as_vec3(along);
-    vec3 emitted = layout::sky_radiance(frame, direction);
-    float alpha = 0;
-    uvec4 contribution(0), shadow_from(0), shadow_along(0, 0, 0, floatBitsToUint(-1.0f));
-    if (hit.w != layout::no_index) {
-      const auto point = this->locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
-      const layout::Surface surface = this->surface_at(point, direction);
-      emitted = surface.emission;
-      alpha = 1;
-      uint32_t px = 0, py = 0;
-      layout::ray_pixel(push_.first_ray + index, frame.width, frame.height, px, py);
-      const glm::vec2 xi = layout::sample_2d(frame.seed, py * frame.width + px, push_.sample_index,
-                                             layout::pair_sky + push_.light);
-      const layout::LightSample light = layout::sample_light(lights_[push_.light], frame, surface, xi);
-      if (layout::dot3(light.direction, surface.geometric) > 0.0f &&
-          layout::max_component(light.radiance) > 0.0f) {
-        const layout::Ray shadow = layout::shadow_ray(surface, light);
-        contribution = as_bits(light.radiance, 0);
-        shadow_from = as_bits(shadow.origin, floatBitsToUint(shadow.tmin));
-        shadow_along = as_bits(shadow.direction, floatBitsToUint(shadow.tmax));
-      }
+    vec3 emitted = sky_radiance(frame, direction);
+    vec1 alpha = 0.0f;
+    uvec4 contribution(0u, 0u, 0u, 0u), shadow_from = contribution;
+    uvec4 shadow_along(0u, 0u, 0u, floatBitsToUint(vec1(-1.0f)));
+    if (const Where here(*this, hit.w != no_index); here.any()) {
+      const Surface surface = surface_of(hit, direction);
+      emitted = select(this->active(), surface.emission, emitted);
+      alpha = select(this->active(), 1.0f, alpha);
+      uvec1 px, py;
+      ray_pixel(push_.first_ray + index, frame.width, frame.height, px, py);
+      const vec2 xi =
+          sample_2d(frame.seed, py * frame.width + px, push_.sample_index, pair_sky + push_.light);
+      const LightSample light = sample_light(lights_[push_.light], frame, surface, xi);
+      const bvec1 lit = this->active() && dot3(light.direction, surface.geometric) > 0.0f &&
+                        max_component(light.radiance) > 0.0f;
+      const Ray shadow = shadow_ray(surface, light);
+      contribution = select(lit, as_bits(light.radiance, 0u), contribution);
+      shadow_from = select(lit, as_bits(shadow.origin, floatBitsToUint(shadow.tmin)), shadow_from);
+      shadow_along = select(lit, as_bits(shadow.direction, floatBitsToUint(shadow.tmax)), shadow_along);
     }
-    this->store(contributions_, index, contribution);
-    this->store(shadow_rays_, 2 * uint64_t(index), shadow_from);
-    this->store(shadow_rays_, 2 * uint64_t(index) + 1, shadow_along);
+    this->store_own(contributions_, contribution);
+    this->store_own(shadow_rays_, shadow_from, 2);
+    this->store_own(shadow_rays_, shadow_along, 2, 1);
     if (push_.light != 0) return;
-    vec4 sum(emitted, alpha);
-    if (uintBitsToFloat(along.w) < 0.0f) sum = vec4(0);
-    if (push_.first == 0) sum = sum + as_vec4(this->load(radiance_, index));
-    this->store(radiance_, index, as_bits(sum));
+    const vec4 none(0.0f, 0.0f, 0.0f, 0.0f);
+    vec4 sum(emitted.x, emitted.y, emitted.z, alpha);
+    sum = select(uintBitsToFloat(along.w) < 0.0f, none, sum);
+    if (push_.first == 0) sum = sum + as_vec4(this->load_own(radiance_));
+    this->store_own(radiance_, as_bits(sum));
   }
 
  private:
+  HWY_ATTR Surface surface_of(const uvec4& hit, const vec3& direction) {
+    const auto point = this->locate_hit(hit);
+    Surface surface;
+    bool first = true;
+    this->for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
+      const Surface here = this->surface_at(material, point, direction);
+      surface = first ? here : select(this->active(), here, surface);
+      first = false;
+    });
+    return surface;
+  }
+
   Quads rays_ = this->quads(16);
-  Structs<layout::LightRecord> lights_ = this->template structs<layout::LightRecord>(17);
+  Structs<LightRecord> lights_ = this->template structs<LightRecord>(17);
   Quads contributions_ = this->quads(18), shadow_rays_ = this->quads(19), radiance_ = this->quads(20);
-  layout::RayPush push_ = this->template push<layout::RayPush>();
+  RayPush push_ = this->template push<RayPush>();
 };
 
-}  // namespace
+LODESTONE_VARYING_BLOCK_FUNCTION(shade, Shade)
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lodestone::cpu_fallback {
+
+HWY_EXPORT(shade_block);
 
 void shade(const CpuDispatch& dispatch) {
-  run_pass<Shade>(dispatch, 512);
+  run_blocks(dispatch, 512, HWY_DYNAMIC_DISPATCH(shade_block));
 }
 
 }  // namespace lodestone::cpu_fallback
+#endif

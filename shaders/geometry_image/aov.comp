@@ -29,8 +29,10 @@ void main() {
     uvec4 along;
     LOAD4(along, rays, 2u * index + 1u);
     SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
-    Surface surface = surface_at(point, as_vec3(along));
     PartRecord part = parts[point.part];
+    MaterialRecord material = materials[part.material];
+    count_read(24u);
+    Surface surface = surface_at(material, point, as_vec3(along));
     first = uvec4(hit.x, as_bits(surface.normal, 0u).xyz);
     second = as_bits(surface.albedo, 0u);
     third = uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y), part.mesh,

@@ -31,7 +31,9 @@ void main() {
   uvec4 shadow_along = uvec4(0u, 0u, 0u, floatBitsToUint(-1.0));
   if (hit.w != no_index) {
     SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
-    Surface surface = surface_at(point, direction);
+    MaterialRecord material = materials[parts[point.part].material];
+    count_read(24u);
+    Surface surface = surface_at(material, point, direction);
     emitted = surface.emission;
     alpha = 1.0;
     uint px;

@@ -21,4 +21,6 @@ STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
 
+#define WHERE(condition) if (condition)
+#define SET(variable, value) variable = value
 #include "layout/surface.h"

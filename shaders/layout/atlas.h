@@ -27,14 +27,14 @@ CONST uint chart_exact =
     1u;  // a 3 x 3 chart that is triangle first_triangle: corners, edge midpoints, centroid
 
 struct ChartRecord {
-  uint first_texel;
-  uint width;
-  uint height;
-  uint kind;
-  uint first_triangle;  // in the triangle buffer
-  uint first_slot;
-  uint slot_count;  // a power of 4
-  uint pad;
+  uvec1 first_texel;
+  uvec1 width;
+  uvec1 height;
+  uvec1 kind;
+  uvec1 first_triangle;  // in the triangle buffer
+  uvec1 first_slot;
+  uvec1 slot_count;  // a power of 4
+  uvec1 pad;
 };
 // There can be a chart a triangle, so that charts too are an array of quads, two each.
 FN ChartRecord chart_record(uvec4 a, uvec4 b) {
@@ -58,12 +58,12 @@ FN ChartRecord chart_record(uvec4 a, uvec4 b) {
 // b }. Leaf: a = leaf_flag | texel, b = stride. Inner node: a = visiting order, 2 bits an octant: child k of
 // octant o is ((a >> 2 o) & 3) ^ k; b = 0.
 
-FN uint level_base(uint depth) {
-  return 0x55555555u & ((1u << (2u * depth)) - 1u);
+FN uvec1 level_base(uvec1 depth) {
+  return 0x55555555u & ((uvec1(1u) << (2u * depth)) - 1u);
 }
 
 // Morton code of (x, y), 16 bits each: x in the even bits.
-FN uint spread_bits(uint x) {
+FN uvec1 spread_bits(uvec1 x) {
   x = x & 0xffffu;
   x = (x | (x << 8u)) & 0x00ff00ffu;
   x = (x | (x << 4u)) & 0x0f0f0f0fu;
@@ -71,7 +71,7 @@ FN uint spread_bits(uint x) {
   x = (x | (x << 1u)) & 0x55555555u;
   return x;
 }
-FN uint gather_bits(uint x) {
+FN uvec1 gather_bits(uvec1 x) {
   x = x & 0x55555555u;
   x = (x | (x >> 1u)) & 0x33333333u;
   x = (x | (x >> 2u)) & 0x0f0f0f0fu;

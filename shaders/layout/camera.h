@@ -4,33 +4,34 @@
 
 #include "layout/frame.h"
 #include "layout/shading.h"
-#include "layout/trace.h"
+#include "layout/ray.h"
 
 LODESTONE_LAYOUT_BEGIN
 
 // Ray `ray` of the picture (numbered in tiles), through a point of its pixel: the centre, or where sample
 // `index` of the pixel lies. A ray outside the picture has tmax = -1.
-FN Ray camera_ray(FrameRecord frame, uint ray, uint index, uint centered) {
-  Ray result;
-  result.origin = frame.origin;
-  result.direction = frame.forward;
-  result.tmin = 0.0f;
-  result.tmax = -1.0f;
-  uint px = 0u;
-  uint py = 0u;
-  if (!ray_pixel(ray, frame.width, frame.height, px, py)) return result;
+FN Ray camera_ray(IN(FrameRecord) frame, uvec1 ray, uint index, uint centered) {
+  uvec1 px;
+  uvec1 py;
+  bvec1 inside = ray_pixel(ray, frame.width, frame.height, px, py);
   vec2 within = vec2(0.5f, 0.5f);
   if (centered == 0u) within = sample_2d(frame.seed, py * frame.width + px, index, pair_pixel);
-  float x = (float(px) + within.x) / float(frame.width) * 2.0f - 1.0f;
-  float y = 1.0f - (float(py) + within.y) / float(frame.height) * 2.0f;
+  vec1 x = (vec1(px) + within.x) / float(frame.width) * 2.0f - 1.0f;
+  vec1 y = 1.0f - (vec1(py) + within.y) / float(frame.height) * 2.0f;
   vec3 offset = frame.right * x + frame.up * y;
+  vec3 origin = frame.origin;
+  vec3 direction = frame.forward;
   if (frame.perspective != 0u) {
-    result.direction = normalize_or(frame.forward + offset, frame.forward);
+    direction = normalize_or(frame.forward + offset, frame.forward);
   } else {
-    result.origin = flush_tiny3(frame.origin + offset);
-    result.direction = normalize_or(frame.forward, frame.forward);
+    origin = flush_tiny3(frame.origin + offset);
+    direction = normalize_or(frame.forward, frame.forward);
   }
-  result.tmax = 1e30f;
+  Ray result;
+  result.origin = select(inside, origin, vec3(frame.origin));
+  result.direction = select(inside, direction, vec3(frame.forward));
+  result.tmin = 0.0f;
+  result.tmax = select(inside, 1e30f, -1.0f);
   return result;
 }
 

@@ -10,7 +10,7 @@
 
 LODESTONE_LAYOUT_BEGIN
 
-FN uint hash(uint x) {
+FN uvec1 hash(uvec1 x) {
   x = x ^ (x >> 16u);
   x = x * 0x21f0aaadu;
   x = x ^ (x >> 15u);
@@ -18,43 +18,42 @@ FN uint hash(uint x) {
   x = x ^ (x >> 15u);
   return x;
 }
-FN uint hash_combine(uint seed, uint x) {
+FN uvec1 hash_combine(uvec1 seed, uvec1 x) {
   return hash(seed ^ (x * 0x9e3779b9u + 0x85ebca6bu));
 }
 
-// Owen scrambling of reversed bits: each bit flips by a hash of the bits above it.
-FN uint owen_scramble(uint x, uint seed) {
-  x = bitfieldReverse(x);
+// Owen scrambling of a fraction with reversed bits: each bit flips by a hash of the bits below it.
+FN uvec1 scramble_reversed(uvec1 x, uvec1 seed) {
   x = x + seed;
   x = x ^ (x * 0x6c50b47cu);
   x = x ^ (x * 0xb82f1e52u);
   x = x ^ (x * 0xc7afe638u);
   x = x ^ (x * 0x8d22f6e6u);
-  return bitfieldReverse(x);
+  return x;
 }
 
-// The second Sobol dimension (the first is the reversed index): primitive polynomial x + 1.
-FN uint sobol_second(uint index) {
-  uint direction = 0x80000000u;
-  uint result = 0u;
-  for (int bit = 0; bit < 32; ++bit) {
-    if ((index & 1u) != 0u) result = result ^ direction;
-    index = index >> 1u;
-    direction = direction ^ (direction >> 1u);
-  }
-  return result;
+// The second Sobol dimension with its bits reversed (the first, reversed, is the index itself). Its primitive
+// polynomial is x + 1, so that its direction numbers are the powers of x + 1 over GF(2), and bit i of the
+// index stands for (x + 1)^i: the index as a polynomial in x + 1, expanded by halves.
+FN uvec1 sobol_second_reversed(uvec1 index) {
+  index = index ^ (index >> 16u);
+  index = index ^ ((index >> 8u) & 0x00ff00ffu);
+  index = index ^ ((index >> 4u) & 0x0f0f0f0fu);
+  index = index ^ ((index >> 2u) & 0x33333333u);
+  return index ^ ((index >> 1u) & 0x55555555u);
 }
 
-FN float unit_float(uint x) {
-  return float(x >> 8u) * 5.9604645e-8f;
-}  // [0, 1), 24 bits
+// [0, 1), 24 bits.
+FN vec1 unit_float(uvec1 x) {
+  return vec1(x >> 8u) * 5.9604645e-8f;
+}
 
 // Sample `index` of the two-dimensional sequence number `pair` of a pixel.
-FN vec2 sample_2d(uint seed, uint pixel, uint index, uint pair) {
-  uint key = hash_combine(hash_combine(seed, pixel), pair);
-  uint shuffled = owen_scramble(index, hash_combine(key, 0u));
-  uint x = owen_scramble(bitfieldReverse(shuffled), hash_combine(key, 1u));
-  uint y = owen_scramble(sobol_second(shuffled), hash_combine(key, 2u));
+FN vec2 sample_2d(uint seed, uvec1 pixel, uint index, uint pair) {
+  uvec1 key = hash_combine(hash_combine(seed, pixel), pair);
+  uvec1 shuffled = bitfieldReverse(scramble_reversed(bitfieldReverse(index), hash_combine(key, 0u)));
+  uvec1 x = bitfieldReverse(scramble_reversed(shuffled, hash_combine(key, 1u)));
+  uvec1 y = bitfieldReverse(scramble_reversed(sobol_second_reversed(shuffled), hash_combine(key, 2u)));
   return vec2(unit_float(x), unit_float(y));
 }
 

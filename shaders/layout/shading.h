@@ -7,13 +7,13 @@
 #include "layout/atlas.h"
 #include "layout/frame.h"
 #include "layout/sampling.h"
-#include "layout/trace.h"
+#include "layout/ray.h"
 
 LODESTONE_LAYOUT_BEGIN
 
 // Pixel of ray `ray`; false where it lies outside the picture.
-FN bool ray_pixel(uint ray, uint width, uint height, OUT(uint) x, OUT(uint) y) {
-  uint tile = ray >> 6u;
+FN bvec1 ray_pixel(uvec1 ray, uint width, uint height, OUT(uvec1) x, OUT(uvec1) y) {
+  uvec1 tile = ray >> 6u;
   uint tiles = tile_count(width);
   x = (tile % tiles) * 8u + gather_bits(ray & 63u);
   y = (tile / tiles) * 8u + gather_bits((ray & 63u) >> 1u);
@@ -21,29 +21,28 @@ FN bool ray_pixel(uint ray, uint width, uint height, OUT(uint) x, OUT(uint) y) {
 }
 
 // One texel coordinate and the weight of the next one, along one axis of a bilinear look-up.
-FN uint wrap_texel(int i, int size, uint wrap) {
-  if (wrap == wrap_clamp) return uint(i < 0 ? 0 : (i >= size ? size - 1 : i));
+FN uvec1 wrap_texel(ivec1 i, int size, uint wrap) {
+  if (wrap == wrap_clamp) return uvec1(select(i < 0, 0, select(i >= size, size - 1, i)));
   int period = wrap == wrap_mirror ? 2 * size : size;
-  int m = i % period;
-  if (m < 0) m = m + period;
-  if (m >= size) m = period - 1 - m;
-  return uint(m);
+  ivec1 m = i % period;
+  m = select(m < 0, m + period, m);
+  return uvec1(select(m >= size, period - 1 - m, m));
 }
 
 struct TexelPair {
-  uint first;
-  uint second;
-  float weight;  // of the second
+  uvec1 first;
+  uvec1 second;
+  vec1 weight;  // of the second
 };
 
-FN TexelPair texel_pair(float coordinate, uint size, uint wrap, uint nearest) {
+FN TexelPair texel_pair(vec1 coordinate, uint size, uint wrap, uint nearest) {
   // Beyond some thousand repeats a float has no fraction left; fold first, so that the integer part stays
   // small.
-  float folded =
+  vec1 folded =
       wrap == wrap_clamp ? clamp1(coordinate, -1.0f, 2.0f) : coordinate - 2.0f * floor(coordinate * 0.5f);
-  float x = folded * float(size) - (nearest != 0u ? 0.0f : 0.5f);
-  float whole = floor(x);
-  int i = int(whole);
+  vec1 x = folded * float(size) - (nearest != 0u ? 0.0f : 0.5f);
+  vec1 whole = floor(x);
+  ivec1 i = ivec1(whole);
   TexelPair pair;
   pair.first = wrap_texel(i, int(size), wrap);
   pair.second = wrap_texel(i + 1, int(size), wrap);
@@ -51,93 +50,94 @@ FN TexelPair texel_pair(float coordinate, uint size, uint wrap, uint nearest) {
   return pair;
 }
 
-FN vec2 transform_texcoord(TextureRecord texture_record, vec2 uv) {
+FN vec2 transform_texcoord(IN(TextureRecord) texture_record, vec2 uv) {
   return vec2(texture_record.u_row.x * uv.x + texture_record.u_row.y * uv.y + texture_record.u_row.z,
               texture_record.v_row.x * uv.x + texture_record.v_row.y * uv.y + texture_record.v_row.z);
 }
 
-FN vec4 unpack_rgba8(uint rgba) {
-  return vec4(float(rgba & 255u), float((rgba >> 8u) & 255u), float((rgba >> 16u) & 255u),
-              float(rgba >> 24u)) /
+FN vec4 unpack_rgba8(uvec1 rgba) {
+  return vec4(vec1(rgba & 255u), vec1((rgba >> 8u) & 255u), vec1((rgba >> 16u) & 255u), vec1(rgba >> 24u)) /
          255.0f;
 }
 
 // A vertex colour as stored: the square roots of R, G and B, which keeps dark tones apart, and A.
-FN vec4 unpack_vertex_color(uint rgba) {
+FN vec4 unpack_vertex_color(uvec1 rgba) {
   vec4 c = unpack_rgba8(rgba);
   return vec4(c.x * c.x, c.y * c.y, c.z * c.z, c.w);
 }
 
-FN vec3 sky_radiance(FrameRecord frame, vec3 direction) {
-  float up = clamp1(direction.y, -1.0f, 1.0f);
+FN vec3 sky_radiance(IN(FrameRecord) frame, vec3 direction) {
+  vec1 up = clamp1(direction.y, -1.0f, 1.0f);
+  vec3 far = select(up >= 0.0f, vec3(frame.sky_top), vec3(frame.sky_bottom));
   // The horizon is a narrow band: blend by the square root of the height.
-  return up >= 0.0f ? mix3(frame.sky_horizon, frame.sky_top, sqrt(up))
-                    : mix3(frame.sky_horizon, frame.sky_bottom, sqrt(-up));
+  return mix3(frame.sky_horizon, far, sqrt(abs1(up)));
 }
 
 struct Surface {
   vec3 position;
-  float reach;     // the largest number in its rounding: a coordinate, or the way to a corner of its triangle
+  vec1 reach;      // the largest number in its rounding: a coordinate, or the way to a corner of its triangle
   vec3 geometric;  // unit normals, turned to the viewer
   vec3 normal;
   vec3 view;  // to the viewer, unit length
   vec3 albedo;
   vec3 emission;
-  float alpha;
-  float metallic;
-  float roughness;
-  float occlusion;
+  vec1 alpha;
+  vec1 metallic;
+  vec1 roughness;
+  vec1 occlusion;
   vec2 texcoord;
 };
 
-FN float fresnel_power(float cosine) {
-  float x = saturate(1.0f - cosine);
-  float x2 = x * x;
+FN vec1 fresnel_power(vec1 cosine) {
+  vec1 x = saturate(1.0f - cosine);
+  vec1 x2 = x * x;
   return x2 * x2 * x;
 }
 
-FN vec3 specular_color(Surface s) {
+FN vec3 specular_color(IN(Surface) s) {
   return mix3(vec3(0.04f, 0.04f, 0.04f), s.albedo, s.metallic);
 }
-FN vec3 diffuse_color(Surface s) {
+FN vec3 diffuse_color(IN(Surface) s) {
   return s.albedo * (1.0f - s.metallic);
 }
 
 // The BRDF times the cosine, for light from `to_light` (unit length).
-FN vec3 reflected(Surface s, vec3 to_light) {
-  float n_l = dot3(s.normal, to_light);
-  if (!(n_l > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
-  float n_v = max2(dot3(s.normal, s.view), 1e-4f);
+FN vec3 reflected(IN(Surface) s, vec3 to_light) {
+  vec1 n_l = dot3(s.normal, to_light);
+  bvec1 lit = n_l > 0.0f;
+  if (!any_lane(lit)) return vec3(0.0f, 0.0f, 0.0f);
+  vec1 n_v = max2(dot3(s.normal, s.view), 1e-4f);
   vec3 half_way = normalize_or(to_light + s.view, s.normal);
-  float n_h = saturate(dot3(s.normal, half_way));
-  float v_h = saturate(dot3(s.view, half_way));
-  float alpha = max2(s.roughness * s.roughness, 1e-3f);
-  float alpha2 = alpha * alpha;
-  float d_term = n_h * n_h * (alpha2 - 1.0f) + 1.0f;
-  float distribution = alpha2 / (pi * d_term * d_term);
-  float masking = 0.5f / (n_l * sqrt(n_v * n_v * (1.0f - alpha2) + alpha2) +
+  vec1 n_h = saturate(dot3(s.normal, half_way));
+  vec1 v_h = saturate(dot3(s.view, half_way));
+  vec1 alpha = max2(s.roughness * s.roughness, 1e-3f);
+  vec1 alpha2 = alpha * alpha;
+  vec1 d_term = n_h * n_h * (alpha2 - 1.0f) + 1.0f;
+  vec1 distribution = alpha2 / (pi * d_term * d_term);
+  vec1 masking = 0.5f / (n_l * sqrt(n_v * n_v * (1.0f - alpha2) + alpha2) +
                           n_v * sqrt(n_l * n_l * (1.0f - alpha2) + alpha2));
   vec3 f0 = specular_color(s);
   vec3 fresnel = f0 + (vec3(1.0f, 1.0f, 1.0f) - f0) * fresnel_power(v_h);
   vec3 diffuse = diffuse_color(s) * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (1.0f / pi);
-  return (diffuse + fresnel * (distribution * masking)) * n_l;
+  vec3 sent = (diffuse + fresnel * (distribution * masking)) * n_l;
+  return select(lit, sent, vec3(0.0f, 0.0f, 0.0f));
 }
 
 // A direction around `axis`, cosine-distributed (Malley; the disc by Shirley and Chiu's concentric map).
 FN vec3 cosine_direction(vec3 axis, vec2 xi) {
-  float x = 2.0f * xi.x - 1.0f;
-  float y = 2.0f * xi.y - 1.0f;
-  bool wide = abs1(x) > abs1(y);
-  float radius = wide ? x : y;
-  float ratio = radius == 0.0f ? 0.0f : (wide ? y : x) / radius;
-  vec2 turn = cos_sin_turns(wide ? ratio * 0.125f : 0.25f - ratio * 0.125f);
-  float disc_x = radius * turn.x;
-  float disc_y = radius * turn.y;
-  float height = sqrt(max2(1.0f - disc_x * disc_x - disc_y * disc_y, 0.0f));
+  vec1 x = 2.0f * xi.x - 1.0f;
+  vec1 y = 2.0f * xi.y - 1.0f;
+  bvec1 wide = abs1(x) > abs1(y);
+  vec1 radius = select(wide, x, y);
+  vec1 ratio = select(radius == 0.0f, 0.0f, select(wide, y, x) / radius);
+  vec2 turn = cos_sin_turns(select(wide, ratio * 0.125f, 0.25f - ratio * 0.125f));
+  vec1 disc_x = radius * turn.x;
+  vec1 disc_y = radius * turn.y;
+  vec1 height = sqrt(max2(1.0f - disc_x * disc_x - disc_y * disc_y, 0.0f));
   // A frame around the axis (Duff et al. 2017, "Building an orthonormal basis, revisited").
-  float side = axis.z < 0.0f ? -1.0f : 1.0f;
-  float p = -1.0f / (side + axis.z);
-  float q = axis.x * axis.y * p;
+  vec1 side = select(axis.z < 0.0f, -1.0f, 1.0f);
+  vec1 p = -1.0f / (side + axis.z);
+  vec1 q = axis.x * axis.y * p;
   vec3 tangent = vec3(1.0f + side * axis.x * axis.x * p, side * q, -side * axis.x);
   vec3 bitangent = vec3(q, side + axis.y * axis.y * p, -axis.y);
   return normalize_or(tangent * disc_x + bitangent * disc_y + axis * height, axis);
@@ -145,27 +145,27 @@ FN vec3 cosine_direction(vec3 axis, vec2 xi) {
 
 // The share of a sky of radiance 1 that the rough mirror part sends back (Karis 2014, "Physically based
 // shading on mobile", a fit of the split-sum table).
-FN vec3 sky_specular(Surface s) {
-  float n_v = saturate(dot3(s.normal, s.view));
-  float r = s.roughness;
-  float r0 = 1.0f - r;
-  float r1 = 0.0425f - 0.0275f * r;
-  float r2 = 1.04f - 0.572f * r;
-  float r3 = -0.04f + 0.022f * r;
-  float a004 = min2(r0 * r0, exp2_(-9.28f * n_v)) * r0 + r1;
-  float scale = -1.04f * a004 + r2;
-  float bias = 1.04f * a004 + r3;
+FN vec3 sky_specular(IN(Surface) s) {
+  vec1 n_v = saturate(dot3(s.normal, s.view));
+  vec1 r = s.roughness;
+  vec1 r0 = 1.0f - r;
+  vec1 r1 = 0.0425f - 0.0275f * r;
+  vec1 r2 = 1.04f - 0.572f * r;
+  vec1 r3 = -0.04f + 0.022f * r;
+  vec1 a004 = min2(r0 * r0, exp2_(-9.28f * n_v)) * r0 + r1;
+  vec1 scale = -1.04f * a004 + r2;
+  vec1 bias = 1.04f * a004 + r3;
   vec3 color = specular_color(s) * scale + vec3(bias, bias, bias);
   return max3(color, vec3(0.0f, 0.0f, 0.0f));
 }
 
 struct LightSample {
   vec3 direction;  // unit length, from the surface
-  float distance;  // to where the shadow ray ends
+  vec1 distance;   // to where the shadow ray ends
   vec3 radiance;   // reflected towards the viewer if nothing is in the way
 };
 
-FN LightSample sample_light(LightRecord light, FrameRecord frame, Surface s, vec2 xi) {
+FN LightSample sample_light(IN(LightRecord) light, IN(FrameRecord) frame, IN(Surface) s, vec2 xi) {
   LightSample result;
   result.radiance = vec3(0.0f, 0.0f, 0.0f);
   result.direction = s.normal;
@@ -180,23 +180,23 @@ FN LightSample sample_light(LightRecord light, FrameRecord frame, Surface s, vec
         s.occlusion;
     return result;
   }
-  float falloff = 1.0f;
+  vec1 falloff = 1.0f;
   if (light.kind == light_directional) {
     result.direction = light.direction * -1.0f;
   } else {
     vec3 to_light = light.position - s.position;
-    float distance2 = dot3(to_light, to_light);
-    float distance = sqrt(distance2);
+    vec1 distance2 = dot3(to_light, to_light);
+    vec1 distance = sqrt(distance2);
     result.direction = normalize_or(to_light, s.normal);
     result.distance = distance;
     falloff = 1.0f / max2(distance2, 1e-8f);
     if (light.range > 0.0f) {  // the window that KHR_lights_punctual recommends
-      float x = distance / light.range;
-      float x2 = x * x;
+      vec1 x = distance / light.range;
+      vec1 x2 = x * x;
       falloff = falloff * saturate(1.0f - x2 * x2);
     }
     if (light.kind == light_spot) {
-      float cone = saturate(-dot3(light.direction, result.direction) * light.cone_scale + light.cone_offset);
+      vec1 cone = saturate(-dot3(light.direction, result.direction) * light.cone_scale + light.cone_offset);
       falloff = falloff * cone * cone;
     }
   }
@@ -207,8 +207,8 @@ FN LightSample sample_light(LightRecord light, FrameRecord frame, Surface s, vec
 // From just above the surface to just before the light. A position is off by less than 2^-21 of the surface's
 // reach (three products and their sum, each by half an ulp), and so is the t that traversal finds for the
 // triangle that it lies on.
-FN Ray shadow_ray(Surface s, LightSample light) {
-  float offset = s.reach * 1.9073486e-6f;  // 2^-19
+FN Ray shadow_ray(IN(Surface) s, IN(LightSample) light) {
+  vec1 offset = s.reach * 1.9073486e-6f;  // 2^-19
   Ray ray;
   ray.origin = flush_tiny3(s.position + s.geometric * offset);
   ray.tmin = 0.0f;
@@ -219,7 +219,7 @@ FN Ray shadow_ray(Surface s, LightSample light) {
 
 // Exposure, then a filmic curve (the rational fit of the ACES curve by Narkowicz, 2016) or none, then the
 // sRGB encoding.
-FN vec3 display_color(FrameRecord frame, vec3 radiance) {
+FN vec3 display_color(IN(FrameRecord) frame, vec3 radiance) {
   vec3 x = max3(radiance * frame.exposure, vec3(0.0f, 0.0f, 0.0f));
   x = vec3(min2(x.x, 1e6f), min2(x.y, 1e6f), min2(x.z, 1e6f));
   if (frame.filmic != 0u) {

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
 // From a hit to the surface there: which triangle of the input, where on it, which material, which normal.
-// Included by kernels behind the buffers it names, and by the CPU fallback inside a struct whose members have
-// those names; LOAD4, LOAD1 and count_read mean the same in both.
+// Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
+// those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
+// in both.
 
 // Where a hit lies on the input.
 struct SurfacePoint {
-  uint texel[3];  // of the corners of the triangle that was hit
-  float weight[3];
+  uvec1 texel[3];  // of the corners of the triangle that was hit
+  vec1 weight[3];
   vec3 corner[3];  // their positions
-  uint triangle;   // of the assembly
-  float b1;        // barycentrics there
-  float b2;
-  uint vertex[3];
-  uint part;
+  uvec1 triangle;  // of the assembly
+  vec1 b1;         // barycentrics there
+  vec1 b2;
+  uvec1 vertex[3];
+  uvec1 part;
 };
 
-FN SurfacePoint locate(uint primitive, float u, float v) {
+FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v) {
   SurfacePoint point;
-  uint texel = primitive >> 1u;
-  uint second_half = primitive & 1u;
+  uvec1 texel = primitive >> 1u;
+  bvec1 first_half = (primitive & 1u) == 0u;
   uvec4 bits;
   LOAD4(bits, geometry, texel);
   uvec4 record0;
@@ -26,9 +27,9 @@ FN SurfacePoint locate(uint primitive, float u, float v) {
   LOAD4(record0, charts, 2u * (bits.w - 1u));
   LOAD4(record1, charts, 2u * (bits.w - 1u) + 1u);
   ChartRecord chart = chart_record(record0, record1);
-  point.texel[0] = second_half == 0u ? texel : texel + chart.width + 1u;
-  point.texel[1] = second_half == 0u ? texel + 1u : texel + chart.width;
-  point.texel[2] = second_half == 0u ? texel + chart.width : texel + 1u;
+  point.texel[0] = select(first_half, texel, texel + chart.width + 1u);
+  point.texel[1] = select(first_half, texel + 1u, texel + chart.width);
+  point.texel[2] = select(first_half, texel + chart.width, texel + 1u);
   point.weight[0] = 1.0f - u - v;
   point.weight[1] = u;
   point.weight[2] = v;
@@ -36,25 +37,27 @@ FN SurfacePoint locate(uint primitive, float u, float v) {
     LOAD4(bits, geometry, point.texel[i]);
     point.corner[i] = as_vec3(bits);
   }
-  if (chart.kind == chart_grid) {
-    uint place = texel - chart.first_texel;
-    uint x = place % chart.width;
-    uint y = place / chart.width;
-    point.triangle = chart.first_triangle + 2u * (y * (chart.width - 1u) + x) + second_half;
-    point.b1 = u;
-    point.b2 = v;
-  } else {
+  // On a grid the place in the chart says which triangle it is, else the texel map.
+  point.triangle = chart.first_triangle;
+  point.b1 = u;
+  point.b2 = v;
+  WHERE(chart.kind == chart_grid) {
+    uvec1 place = texel - chart.first_texel;
+    uvec1 row = place / chart.width;
+    SET(point.triangle, chart.first_triangle + 2u * (place - row) + (primitive & 1u));
+  }
+  WHERE(chart.kind != chart_grid) {
     uvec4 s0;
     uvec4 s1;
     uvec4 s2;
     LOAD4(s0, texel_map, point.texel[0]);
     LOAD4(s1, texel_map, point.texel[1]);
     LOAD4(s2, texel_map, point.texel[2]);
-    point.triangle = s0.x;
-    point.b1 =
-        uintBitsToFloat(s0.y) * point.weight[0] + uintBitsToFloat(s1.y) * u + uintBitsToFloat(s2.y) * v;
-    point.b2 =
-        uintBitsToFloat(s0.z) * point.weight[0] + uintBitsToFloat(s1.z) * u + uintBitsToFloat(s2.z) * v;
+    SET(point.triangle, s0.x);
+    SET(point.b1,
+        uintBitsToFloat(s0.y) * point.weight[0] + uintBitsToFloat(s1.y) * u + uintBitsToFloat(s2.y) * v);
+    SET(point.b2,
+        uintBitsToFloat(s0.z) * point.weight[0] + uintBitsToFloat(s1.z) * u + uintBitsToFloat(s2.z) * v);
   }
   LOAD4(bits, triangles, point.triangle);
   point.vertex[0] = bits.x;
@@ -65,7 +68,7 @@ FN SurfacePoint locate(uint primitive, float u, float v) {
 }
 
 // Both sets of texture coordinates at the point.
-FN vec4 texcoords_at(SurfacePoint point) {
+FN vec4 texcoords_at(IN(SurfacePoint) point) {
   uvec4 t0;
   uvec4 t1;
   uvec4 t2;
@@ -76,17 +79,17 @@ FN vec4 texcoords_at(SurfacePoint point) {
 }
 
 // A texel as stored; `decode`: colours from sRGB to linear by the table.
-FN vec4 texel_color(uint index, bool decode) {
-  uint rgba;
+FN vec4 texel_color(uvec1 index, bool decode) {
+  uvec1 rgba;
   LOAD1(rgba, images, index);
   if (!decode) return unpack_rgba8(rgba);
-  uint r;
-  uint g;
-  uint b;
+  uvec1 r;
+  uvec1 g;
+  uvec1 b;
   LOAD1(r, srgb_table, rgba & 255u);
   LOAD1(g, srgb_table, (rgba >> 8u) & 255u);
   LOAD1(b, srgb_table, (rgba >> 16u) & 255u);
-  return vec4(uintBitsToFloat(r), uintBitsToFloat(g), uintBitsToFloat(b), float(rgba >> 24u) / 255.0f);
+  return vec4(uintBitsToFloat(r), uintBitsToFloat(g), uintBitsToFloat(b), vec1(rgba >> 24u) / 255.0f);
 }
 
 FN vec4 sample_texture(uint index, vec4 uvs, bool decode) {
@@ -104,7 +107,7 @@ FN vec4 sample_texture(uint index, vec4 uvs, bool decode) {
 }
 
 // Base colour and alpha: factor, texture, vertex colour.
-FN vec4 base_color_at(MaterialRecord material, SurfacePoint point, vec4 uvs) {
+FN vec4 base_color_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec4 uvs) {
   vec4 color = material.base_color;
   if (material.base_color_texture != no_index)
     color = color * sample_texture(material.base_color_texture, uvs, true);
@@ -120,7 +123,7 @@ FN vec4 base_color_at(MaterialRecord material, SurfacePoint point, vec4 uvs) {
 
 // Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set`, on
 // the side of `normal`.
-FN vec4 tangent_at(SurfacePoint point, uint set, vec3 normal) {
+FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
   uvec4 t0;
   uvec4 t1;
   uvec4 t2;
@@ -128,36 +131,36 @@ FN vec4 tangent_at(SurfacePoint point, uint set, vec3 normal) {
   LOAD4(t1, tangents, point.vertex[1]);
   LOAD4(t2, tangents, point.vertex[2]);
   vec3 own = as_vec3(t0) * (1.0f - point.b1 - point.b2) + as_vec3(t1) * point.b1 + as_vec3(t2) * point.b2;
-  if (dot3(own, own) > 1e-12f) return vec4(own.x, own.y, own.z, uintBitsToFloat(t0.w));
-  LOAD4(t0, texcoords, point.vertex[0]);
-  LOAD4(t1, texcoords, point.vertex[1]);
-  LOAD4(t2, texcoords, point.vertex[2]);
-  vec4 d1 = as_vec4(t1) - as_vec4(t0);
-  vec4 d2 = as_vec4(t2) - as_vec4(t0);
-  vec2 uv1 = set == 0u ? vec2(d1.x, d1.y) : vec2(d1.z, d1.w);
-  vec2 uv2 = set == 0u ? vec2(d2.x, d2.y) : vec2(d2.z, d2.w);
-  uvec4 p0;
-  uvec4 p1;
-  uvec4 p2;
-  LOAD4(p0, positions, point.vertex[0]);
-  LOAD4(p1, positions, point.vertex[1]);
-  LOAD4(p2, positions, point.vertex[2]);
-  vec3 e1 = as_vec3(p1) - as_vec3(p0);
-  vec3 e2 = as_vec3(p2) - as_vec3(p0);
-  float area = uv1.x * uv2.y - uv1.y * uv2.x;
-  vec3 along = e1 * uv2.y - e2 * uv1.y;
-  vec3 down = e2 * uv1.x - e1 * uv2.x;
-  float side = area < 0.0f ? -1.0f : 1.0f;
-  // glTF's v runs down and a normal map's green up.
-  return vec4(along.x * side, along.y * side, along.z * side,
-              dot3(cross3(normal, along), down) > 0.0f ? -1.0f : 1.0f);
+  vec4 tangent = vec4(own.x, own.y, own.z, uintBitsToFloat(t0.w));
+  WHERE(!(dot3(own, own) > 1e-12f)) {
+    LOAD4(t0, texcoords, point.vertex[0]);
+    LOAD4(t1, texcoords, point.vertex[1]);
+    LOAD4(t2, texcoords, point.vertex[2]);
+    vec4 d1 = as_vec4(t1) - as_vec4(t0);
+    vec4 d2 = as_vec4(t2) - as_vec4(t0);
+    vec2 uv1 = set == 0u ? vec2(d1.x, d1.y) : vec2(d1.z, d1.w);
+    vec2 uv2 = set == 0u ? vec2(d2.x, d2.y) : vec2(d2.z, d2.w);
+    uvec4 p0;
+    uvec4 p1;
+    uvec4 p2;
+    LOAD4(p0, positions, point.vertex[0]);
+    LOAD4(p1, positions, point.vertex[1]);
+    LOAD4(p2, positions, point.vertex[2]);
+    vec3 e1 = as_vec3(p1) - as_vec3(p0);
+    vec3 e2 = as_vec3(p2) - as_vec3(p0);
+    vec1 area = uv1.x * uv2.y - uv1.y * uv2.x;
+    vec3 along = e1 * uv2.y - e2 * uv1.y;
+    vec3 down = e2 * uv1.x - e1 * uv2.x;
+    vec1 side = select(area < 0.0f, -1.0f, 1.0f);
+    // glTF's v runs down and a normal map's green up.
+    vec1 bitangent = select(dot3(cross3(normal, along), down) > 0.0f, -1.0f, 1.0f);
+    SET(tangent, vec4(along.x * side, along.y * side, along.z * side, bitangent));
+  }
+  return tangent;
 }
 
-FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
+FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 from_viewer) {
   Surface s;
-  PartRecord part = parts[point.part];
-  MaterialRecord material = materials[part.material];
-  count_read(24u);
   vec4 uvs = texcoords_at(point);
   s.texcoord = vec2(uvs.x, uvs.y);
   s.position = point.corner[0] * point.weight[0] + point.corner[1] * point.weight[1] +
@@ -188,7 +191,7 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
   }
   s.occlusion = 1.0f;
   if (material.occlusion_texture != no_index) {
-    float texel = sample_texture(material.occlusion_texture, uvs, false).x;
+    vec1 texel = sample_texture(material.occlusion_texture, uvs, false).x;
     s.occlusion = 1.0f + material.occlusion_strength * (texel - 1.0f);
   }
   s.emission = material.emissive;
@@ -207,7 +210,7 @@ FN Surface surface_at(SurfacePoint point, vec3 from_viewer) {
     s.normal = normalize_or(bent, s.normal);
   }
   // Both sides are lit alike: turn the normals to the viewer, the shading normal with the geometric one.
-  if (dot3(s.geometric, s.view) < 0.0f) s.geometric = s.geometric * -1.0f;
-  if (dot3(s.normal, s.geometric) < 0.0f) s.normal = s.normal * -1.0f;
+  s.geometric = select(dot3(s.geometric, s.view) < 0.0f, s.geometric * -1.0f, s.geometric);
+  s.normal = select(dot3(s.normal, s.geometric) < 0.0f, s.normal * -1.0f, s.normal);
   return s;
 }

@@ -11,28 +11,9 @@
 
 #include "layout/arithmetic.h"
 #include "layout/atlas.h"
+#include "layout/ray.h"
 
 LODESTONE_LAYOUT_BEGIN
-
-struct Ray {
-  vec3 origin;
-  float tmin;  // hits are beyond tmin ...
-  vec3 direction;
-  float tmax;  // ... and not beyond tmax; negative: no ray
-};
-
-// From its two quads in a buffer. One that is not finite is no ray: it would pass comparisons with bounds by
-// chance.
-FN Ray stored_ray(uvec4 from, uvec4 along) {
-  Ray ray;
-  ray.origin = vec3(uintBitsToFloat(from.x), uintBitsToFloat(from.y), uintBitsToFloat(from.z));
-  ray.tmin = uintBitsToFloat(from.w);
-  ray.direction = vec3(uintBitsToFloat(along.x), uintBitsToFloat(along.y), uintBitsToFloat(along.z));
-  float sum = abs1(ray.origin.x) + abs1(ray.origin.y) + abs1(ray.origin.z) + abs1(ray.direction.x) +
-              abs1(ray.direction.y) + abs1(ray.direction.z);
-  ray.tmax = sum <= infinity_bits_as_max ? uintBitsToFloat(along.w) : -1.0f;
-  return ray;
-}
 
 // t in units of |direction|; u, v the barycentrics of the triangle's second and third corner; primitive =
 // 2 * texel of corner a + half. Half 0 is the triangle (a, b, c), half 1 is (d, c, b).

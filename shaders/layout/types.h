@@ -3,6 +3,10 @@
 // C++ by the host and the CPU fallback. What is written in them uses only operations that give the same bits
 // in both:
 // + - * / sqrt floor, comparisons, selects and integers. (The shader build rejects the others.)
+//
+// The CPU fallback compiles some of them once more for many invocations side by side, one a vector lane
+// (cpu_fallback/varying/layout-inl.h lists them). In those, what differs between invocations is a vec1, uvec1,
+// ivec1 or bvec1, which is a plain number but there; a bvec1 is asked by select(), a bool by if and ?:.
 #ifndef LODESTONE_LAYOUT_TYPES_H
 #define LODESTONE_LAYOUT_TYPES_H
 
@@ -16,6 +20,7 @@
 #define LODESTONE_LAYOUT_BEGIN namespace lodestone::layout {
 #define LODESTONE_LAYOUT_END }
 #define FN inline
+#define IN(T) const T&
 #define OUT(T) T&
 #define INOUT(T) T&
 #define CONST inline constexpr
@@ -29,6 +34,17 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 using uint = uint32_t;
+using vec1 = float;
+using uvec1 = uint;
+using ivec1 = int;
+using bvec1 = bool;
+template <class T>
+FN T select(bool condition, T yes, T no) {
+  return condition ? yes : no;
+}
+FN bool any_lane(bool condition) {
+  return condition;
+}
 FN uint floatBitsToUint(float x) {
   return std::bit_cast<uint>(x);
 }
@@ -64,9 +80,16 @@ LODESTONE_LAYOUT_END
 #define LODESTONE_LAYOUT_BEGIN
 #define LODESTONE_LAYOUT_END
 #define FN
+#define IN(T) T
 #define OUT(T) out T
 #define INOUT(T) inout T
 #define CONST const
+#define vec1 float
+#define uvec1 uint
+#define ivec1 int
+#define bvec1 bool
+#define select(condition, yes, no) ((condition) ? (yes) : (no))
+#define any_lane(condition) (condition)
 
 #endif
 #endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The buffers that layout/surface.h reads, slots 0 to 15 of `mask`, `shade` and `aov`, and that header
+// itself. Included once a SIMD target.
+
+#if defined(LODESTONE_SURFACE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LODESTONE_SURFACE_KERNEL_INL_H_
+#undef LODESTONE_SURFACE_KERNEL_INL_H_
+#else
+#define LODESTONE_SURFACE_KERNEL_INL_H_
+#endif
+
+#include "lodestone/cpu_fallback/varying/kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lodestone::cpu_fallback::HWY_NAMESPACE {
+
+HWY_ATTR inline Surface select(bvec1 condition, const Surface& yes, const Surface& no) {
+  Surface s;
+  s.position = select(condition, yes.position, no.position);
+  s.reach = select(condition, yes.reach, no.reach);
+  s.geometric = select(condition, yes.geometric, no.geometric);
+  s.normal = select(condition, yes.normal, no.normal);
+  s.view = select(condition, yes.view, no.view);
+  s.albedo = select(condition, yes.albedo, no.albedo);
+  s.emission = select(condition, yes.emission, no.emission);
+  s.alpha = select(condition, yes.alpha, no.alpha);
+  s.metallic = select(condition, yes.metallic, no.metallic);
+  s.roughness = select(condition, yes.roughness, no.roughness);
+  s.occlusion = select(condition, yes.occlusion, no.occlusion);
+  s.texcoord = select(condition, yes.texcoord, no.texcoord);
+  return s;
+}
+
+template <class Probe>
+class SurfaceKernel : public VaryingKernel<Probe> {
+ public:
+  using VaryingKernel<Probe>::VaryingKernel;
+
+ protected:
+  void count_read(uint32_t words) { VaryingKernel<Probe>::count_read(words); }
+
+  Quads hits = this->quads(0), geometry = this->quads(1), normal_map = this->quads(2),
+        texel_map = this->quads(3), triangles = this->quads(4), positions = this->quads(5),
+        normals = this->quads(6), tangents = this->quads(7), texcoords = this->quads(8);
+  Words images = this->words(9), srgb_table = this->words(10);
+  Quads charts = this->quads(11);
+  Structs<PartRecord> parts = this->template structs<PartRecord>(12);
+  Structs<MaterialRecord> materials = this->template structs<MaterialRecord>(13);
+  Structs<TextureRecord> textures = this->template structs<TextureRecord>(14);
+  Structs<FrameRecord> frames = this->template structs<FrameRecord>(15);
+
+#define LOAD4(result, buffer, i) result = this->load(buffer, i)
+#define LOAD1(result, buffer, i) result = this->load(buffer, i)
+#define WHERE(condition) if (const Where here(*this, condition); here.any())
+#define SET(variable, value) variable = select(this->active(), value, variable)
+#include "lodestone/layout/surface.h"
+#undef LOAD4
+#undef LOAD1
+#undef WHERE
+#undef SET
+
+  // Of the active invocations' hits.
+  HWY_ATTR SurfacePoint locate_hit(const uvec4& hit) {
+    // Nothing absurd where nothing was hit: it would take the slow way of divisions.
+    const uvec1 primitive = select(this->active(), hit.w, 0u);
+    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+  }
+
+  // Calls body(part, material) for each part that invocations have hit, with those active that have hit it.
+  template <class Body>
+  HWY_ATTR void for_each_part(const SurfacePoint& point, const Body& body) {
+    this->for_each_value(point.part, [&](uint32_t index) HWY_ATTR {
+      const PartRecord& part = parts[index];
+      count_read(24);
+      body(part, materials[part.material]);
+    });
+  }
+};
+
+}  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
