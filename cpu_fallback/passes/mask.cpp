@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/layout/shading.h"
-#include "lodestone/layout/trace.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/mask.cpp"
@@ -21,20 +20,25 @@ class Mask : public SurfaceKernel<Probe> {
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits);
-    const Where here(*this, is_cut_out(hit));
-    if (!here.any()) return;
-    uvec4 from = this->load_own(rays_, 2);
-    from.w = hit.x;
-    this->store_own(rays_, from, 2);
-    this->store_own(states_, uvec4(0u, 0u, trace_restart, hit.w));
-    this->add(pending_, 0, this->active_count());
+    const Where hit_something(*this, hit.w != no_index);
+    if (!hit_something.any()) return;
+    const Where unjudged(*this, trace_status(this->load_own(states_)) != trace_judged);
+    if (!unjudged.any()) return;
+    const bvec1 cut_out = is_cut_out(hit);
+    if (const Where here(*this, cut_out); here.any()) {
+      uvec4 from = this->load_own(rays_, 2);
+      from.w = hit.x;
+      this->store_own(rays_, from, 2);
+      this->store_own(states_, uvec4(0u, 0u, trace_restart, hit.w));
+      this->add(pending_, 0, this->active_count());
+    }
+    const Where here(*this, !cut_out);
+    this->store_own(states_, uvec4(0u, 0u, trace_judged, no_index));
   }
 
  private:
   HWY_ATTR bvec1 is_cut_out(const uvec4& hit) {
-    const Where here(*this, hit.w != no_index);
     bvec1 cut_out = false;
-    if (!here.any()) return cut_out;
     const auto point = this->locate_hit(hit);
     this->for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
       if (material.alpha_mask == 0) return;

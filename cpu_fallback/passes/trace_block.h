@@ -60,7 +60,7 @@ class TraceBlock : public TraceKernel<Probe> {
   // here.
   bool wanted(uint32_t index) {
     if (this->push_.resume == 0) return true;
-    return layout::trace_status(this->states_.load4(index)) != layout::trace_finished;
+    return layout::trace_goes_on(this->states_.load4(index));
   }
   // What the mask has let this ray through (layout::accept_triangle).
   uint32_t passed(uint32_t index) {

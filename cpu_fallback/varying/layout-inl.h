@@ -14,6 +14,7 @@
 
 #include "lodestone/cpu_fallback/varying/numbers-inl.h"
 #include "lodestone/layout/camera.h"
+#include "lodestone/layout/ray_state.h"
 #include "lodestone/layout/shading.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,6 +26,7 @@ using namespace layout;  // behind what is declared here
 #undef LODESTONE_LAYOUT_ATLAS_H
 #undef LODESTONE_LAYOUT_CAMERA_H
 #undef LODESTONE_LAYOUT_RAY_H
+#undef LODESTONE_LAYOUT_RAY_STATE_H
 #undef LODESTONE_LAYOUT_SAMPLING_H
 #undef LODESTONE_LAYOUT_SHADING_H
 #undef LODESTONE_LAYOUT_BEGIN
@@ -33,6 +35,7 @@ using namespace layout;  // behind what is declared here
 #include "lodestone/layout/atlas.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/ray.h"
+#include "lodestone/layout/ray_state.h"
 #include "lodestone/layout/sampling.h"
 #include "lodestone/layout/shading.h"
 #undef LODESTONE_LAYOUT_BEGIN

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Alpha masks: a hit on a cut-out texel is no hit; its ray goes on from there in another round of `trace`.
+// Alpha masks: a hit on a cut-out texel is no hit; its ray goes on from there in another round of `trace`. Any other hit
+// is marked, so that later rounds need not look at it again.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
 
 QUADS(16, restrict, rays);
-QUADS(17, writeonly, states);
+QUADS(17, restrict, states);
 STRUCTS(18, restrict, uint, pending);
 COUNTERS(19)
 PUSH(CountPush, push);
 
 bool is_cut_out(uvec4 hit) {
-  if (hit.w == no_index) return false;
   SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
   MaterialRecord material = materials[parts[point.part].material];
   count_read(24u);
@@ -24,13 +24,21 @@ void main() {
   if (index >= push.count) return;
   uvec4 hit;
   LOAD4(hit, hits, index);
-  if (is_cut_out(hit)) {
-    uvec4 from;
-    LOAD4(from, rays, 2u * index);
-    from.w = hit.x;
-    STORE4(rays, 2u * index, from);
-    STORE4(states, index, uvec4(0u, 0u, trace_restart, hit.w));
-    atomicAdd(pending[0], 1u);
+  if (hit.w != no_index) {
+    uvec4 state;
+    LOAD4(state, states, index);
+    if (trace_status(state) != trace_judged) {
+      if (is_cut_out(hit)) {
+        uvec4 from;
+        LOAD4(from, rays, 2u * index);
+        from.w = hit.x;
+        STORE4(rays, 2u * index, from);
+        STORE4(states, index, uvec4(0u, 0u, trace_restart, hit.w));
+        atomicAdd(pending[0], 1u);
+      } else {
+        STORE4(states, index, uvec4(0u, 0u, trace_judged, no_index));
+      }
+    }
   }
   flush_counters();
 }

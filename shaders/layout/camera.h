@@ -3,8 +3,8 @@
 #define LODESTONE_LAYOUT_CAMERA_H
 
 #include "layout/frame.h"
-#include "layout/shading.h"
 #include "layout/ray.h"
+#include "layout/shading.h"
 
 LODESTONE_LAYOUT_BEGIN
 

@@ -21,7 +21,7 @@ FN Ray stored_ray(uvec4 from, uvec4 along) {
   ray.tmin = uintBitsToFloat(from.w);
   ray.direction = vec3(uintBitsToFloat(along.x), uintBitsToFloat(along.y), uintBitsToFloat(along.z));
   vec1 sum = abs1(ray.origin.x) + abs1(ray.origin.y) + abs1(ray.origin.z) + abs1(ray.direction.x) +
-              abs1(ray.direction.y) + abs1(ray.direction.z);
+             abs1(ray.direction.y) + abs1(ray.direction.z);
   ray.tmax = select(sum <= infinity_bits_as_max, uintBitsToFloat(along.w), -1.0f);
   return ray;
 }

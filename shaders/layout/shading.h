@@ -6,8 +6,8 @@
 #include "layout/arithmetic.h"
 #include "layout/atlas.h"
 #include "layout/frame.h"
-#include "layout/sampling.h"
 #include "layout/ray.h"
+#include "layout/sampling.h"
 
 LODESTONE_LAYOUT_BEGIN
 
@@ -115,7 +115,7 @@ FN vec3 reflected(IN(Surface) s, vec3 to_light) {
   vec1 d_term = n_h * n_h * (alpha2 - 1.0f) + 1.0f;
   vec1 distribution = alpha2 / (pi * d_term * d_term);
   vec1 masking = 0.5f / (n_l * sqrt(n_v * n_v * (1.0f - alpha2) + alpha2) +
-                          n_v * sqrt(n_l * n_l * (1.0f - alpha2) + alpha2));
+                         n_v * sqrt(n_l * n_l * (1.0f - alpha2) + alpha2));
   vec3 f0 = specular_color(s);
   vec3 fresnel = f0 + (vec3(1.0f, 1.0f, 1.0f) - f0) * fresnel_power(v_h);
   vec3 diffuse = diffuse_color(s) * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (1.0f / pi);

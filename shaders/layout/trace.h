@@ -12,6 +12,7 @@
 #include "layout/arithmetic.h"
 #include "layout/atlas.h"
 #include "layout/ray.h"
+#include "layout/ray_state.h"
 
 LODESTONE_LAYOUT_BEGIN
 
@@ -184,18 +185,6 @@ FN Walk walk_on(Walk walk) {
   walk.turns = walk.turns >> up;
   walk.depth = done ? walk_done : walk.depth - (up >> 1u);
   return walk;
-}
-
-// Traversal states between dispatches: { order, turns, 4 * depth + status, passed } or { link, 0, status,
-// passed }; `passed` as accept_triangle has it.
-CONST uint trace_finished = 0u;
-CONST uint trace_unfinished = 1u;
-CONST uint trace_restart = 2u;  // from the root, with nothing hit (the ray's tmin has moved)
-FN uint trace_status(uvec4 state) {
-  return state.z & 3u;
-}
-FN uint trace_depth(uvec4 state) {
-  return state.z >> 2u;
 }
 
 struct TracePush {

@@ -5,8 +5,9 @@
 // + - * / sqrt floor, comparisons, selects and integers. (The shader build rejects the others.)
 //
 // The CPU fallback compiles some of them once more for many invocations side by side, one a vector lane
-// (cpu_fallback/varying/layout-inl.h lists them). In those, what differs between invocations is a vec1, uvec1,
-// ivec1 or bvec1, which is a plain number but there; a bvec1 is asked by select(), a bool by if and ?:.
+// (cpu_fallback/varying/layout-inl.h lists them). In those, what differs between invocations is a vec1,
+// uvec1, ivec1 or bvec1, which is a plain number but there; a bvec1 is asked by select(), a bool by if and
+// ?:.
 #ifndef LODESTONE_LAYOUT_TYPES_H
 #define LODESTONE_LAYOUT_TYPES_H
 
