@@ -78,7 +78,8 @@ struct vec1 {
   HWY_ATTR friend bvec1 operator>(vec1 a, vec1 b) { return hn::Gt(a.v, b.v); }
   HWY_ATTR friend bvec1 operator>=(vec1 a, vec1 b) { return hn::Ge(a.v, b.v); }
   HWY_ATTR friend bvec1 operator==(vec1 a, vec1 b) { return hn::Eq(a.v, b.v); }
-  HWY_ATTR friend bvec1 operator!=(vec1 a, vec1 b) { return hn::Ne(a.v, b.v); }
+  // Not Highway's Ne, which says on AVX2 that a NaN is not unequal.
+  HWY_ATTR friend bvec1 operator!=(vec1 a, vec1 b) { return !(a == b); }
 };
 
 HWY_ATTR inline vec1 sqrt(vec1 x) {

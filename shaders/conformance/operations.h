@@ -43,50 +43,50 @@ CONST uint op_count = 30u;
 
 // A denormal, and the smallest normal number with it (a device that flushes decides before it rounds), as a
 // zero of the same sign.
-FN uint flush_bits(uint bits) {
-  return (bits & 0x7fffffffu) <= 0x00800000u ? bits & 0x80000000u : bits;
+FN uvec1 flush_bits(uvec1 bits) {
+  return select((bits & 0x7fffffffu) < 0x00800001u, bits & 0x80000000u, bits);
 }
 
-FN uint mix_bits(vec3 v) {
+FN uvec1 mix_bits(vec3 v) {
   return floatBitsToUint(v.x) ^ (floatBitsToUint(v.y) * 3u) ^ (floatBitsToUint(v.z) * 5u);
 }
 
-FN uint apply_integer(uint op, uvec4 u) {
-  if (op == op_from_uint) return floatBitsToUint(float(u.x >> 8u));
-  if (op == op_from_int) return floatBitsToUint(float(int(u.x)));
+FN uvec1 apply_integer(uint op, uvec4 u) {
+  if (op == op_from_uint) return floatBitsToUint(vec1(u.x >> 8u));
+  if (op == op_from_int) return floatBitsToUint(vec1(ivec1(u.x)));
   if (op == op_divide_uint) return u.x / (u.y | 1u) ^ u.x % (u.z | 1u);
-  if (op == op_shift_int) return uint(int(u.x) >> (u.y & 31u));
-  return uint(findMSB(u.x)) ^ (uint(findLSB(u.y)) << 8u) ^ (uint(bitCount(u.z)) << 16u) ^
+  if (op == op_shift_int) return uvec1(ivec1(u.x) >> (u.y & 31u));
+  return uvec1(findMSB(u.x)) ^ (uvec1(findLSB(u.y)) << 8u) ^ (uvec1(bitCount(u.z)) << 16u) ^
          bitfieldReverse(u.w);
 }
 
-FN uint apply_function(uint op, float x, float y, float z) {
+FN uvec1 apply_function(uint op, vec1 x, vec1 y, vec1 z) {
   if (op == op_normalize) return mix_bits(normalize_or(vec3(x, y, z), vec3(1.0f, 2.0f, 3.0f)));
   if (op == op_exp2) return floatBitsToUint(exp2_(x));
-  if (op == op_log2) return floatBitsToUint(log2_(x < 1e-30f ? 2.0f : x));
-  vec2 cs = cos_sin_turns(x < 1e6f ? (x > -1e6f ? x : 0.25f) : 0.5f);
+  if (op == op_log2) return floatBitsToUint(log2_(select(x < 1e-30f, 2.0f, x)));
+  vec2 cs = cos_sin_turns(select(x < 1e6f, select(x > -1e6f, x, 0.25f), 0.5f));
   return floatBitsToUint(cs.x) ^ (floatBitsToUint(cs.y) * 3u);
 }
 
-FN uint apply_comparison(uint op, float x, float y) {
-  if (op == op_less) return x < y ? 1u : 0u;
-  if (op == op_less_equal) return x <= y ? 1u : 0u;
-  if (op == op_equal) return x == y ? 1u : 0u;
-  if (op == op_not_equal) return x != y ? 1u : 0u;
+FN uvec1 apply_comparison(uint op, vec1 x, vec1 y) {
+  if (op == op_less) return select(x < y, 1u, 0u);
+  if (op == op_less_equal) return select(x <= y, 1u, 0u);
+  if (op == op_equal) return select(x == y, 1u, 0u);
+  if (op == op_not_equal) return select(x != y, 1u, 0u);
   if (op == op_smaller) return floatBitsToUint(min2(x, y));
   return floatBitsToUint(max2(x, y));
 }
 
-FN bool in_int_range(float x) {
+FN bvec1 in_int_range(vec1 x) {
   return x > -2147483648.0f && x < 2147483648.0f;
 }
 
 // The result of operation `op` on the bits of up to four operands.
-FN uint apply_operation(uint op, uvec4 u) {
-  float x = uintBitsToFloat(u.x);
-  float y = uintBitsToFloat(u.y);
-  float z = uintBitsToFloat(u.z);
-  float w = uintBitsToFloat(u.w);
+FN uvec1 apply_operation(uint op, uvec4 u) {
+  vec1 x = uintBitsToFloat(u.x);
+  vec1 y = uintBitsToFloat(u.y);
+  vec1 z = uintBitsToFloat(u.z);
+  vec1 w = uintBitsToFloat(u.w);
   if (op == op_add) return floatBitsToUint(x + y);
   if (op == op_subtract) return floatBitsToUint(x - y);
   if (op == op_multiply) return floatBitsToUint(x * y);
@@ -98,8 +98,8 @@ FN uint apply_operation(uint op, uvec4 u) {
   if (op == op_multiply_add) return floatBitsToUint(x * y + z);
   if (op == op_dot) return floatBitsToUint(dot3(vec3(x, y, z), vec3(w, x, y)));
   if (op == op_cross) return mix_bits(cross3(vec3(x, y, z), vec3(w, x, y)));
-  if (op == op_to_uint) return in_int_range(x) ? uint(x < 0.0f ? -x : x) : 7u;
-  if (op == op_to_int) return in_int_range(x) ? uint(int(x)) : 7u;
+  if (op == op_to_uint) return select(in_int_range(x), uvec1(abs1(select(in_int_range(x), x, 0.0f))), 7u);
+  if (op == op_to_int) return select(in_int_range(x), uvec1(ivec1(select(in_int_range(x), x, 0.0f))), 7u);
   if (op == op_round_trip) return floatBitsToUint(x);
   if (op == op_half) return floatBitsToUint(x * 0.5f);
   if (op == op_reciprocal) return floatBitsToUint(1.0f / x);
