@@ -33,8 +33,9 @@ PassTimes frame_times(const ReadyScene& ready, int64_t targets) {
   const auto view = render::find_view(ready.scene, pose, "", scene::pose_bounds(ready.scene, pose),
                                       settings.width, settings.height);
   renderer.render(pose, view);  // the first touch of all memory
+  const auto frame = renderer.render(pose, view);
   PassTimes times;
-  for (const render::PassRecord& pass : renderer.render(pose, view)->passes) times[pass.name] += pass.wall_ms;
+  for (const render::PassRecord& pass : frame->passes) times[pass.name] += pass.wall_ms;
   return times;
 }
 
