@@ -43,6 +43,12 @@ std::string element_line(const Json& element, size_t index) {
          inline_text(rest);
 }
 
+bool holds_sentences(const Json& value) {
+  return value.is_array() && !value.empty() && std::all_of(value.begin(), value.end(), [](const Json& item) {
+           return item.is_string() && item.get_ref<const std::string&>().ends_with('.');
+         });
+}
+
 void print(const Json& object, const std::string& indent, std::string& text) {
   for (const auto& [key, value] : object.items()) {
     text += indent + plain_line(words(key)) + ':';
@@ -52,6 +58,9 @@ void print(const Json& object, const std::string& indent, std::string& text) {
     } else if (holds_objects(value)) {
       text += " " + std::to_string(value.size()) + '\n';
       for (size_t i = 0; i < value.size(); ++i) text += indent + "  " + element_line(value[i], i) + '\n';
+    } else if (holds_sentences(value)) {
+      text += '\n';
+      for (const Json& sentence : value) text += indent + "  " + inline_text(sentence) + '\n';
     } else {
       text += ' ' + inline_text(value) + '\n';
     }

@@ -41,8 +41,8 @@ TEST_F(Info, TheAtlasCanBeChosen) {
 TEST_F(Info, OfASceneIsReadable) {
   const Result result = run({"info", "builtin:tiny"});
   EXPECT_EQ(result.code, 0);
-  for (const char* part :
-       {"triangles: 6\n", "0 Fold: seconds 1.0, channels 1\n", "targets (fold)", "closed: no\n"})
+  for (const char* part : {"triangles: 6\n", "0 Fold: seconds 1.0, channels 1\n", "targets (fold)",
+                           "closed: no\n", "notes:\n    10 edges have one triangle: the surface is open.\n"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
 }
 
