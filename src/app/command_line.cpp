@@ -12,7 +12,6 @@
 #include <cstring>
 #include <functional>
 #include <new>
-#include <numeric>
 #include <system_error>
 
 #include "lodestone/app/bake_command.h"
@@ -28,6 +27,7 @@
 #include "lodestone/app/version.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
+#include "lodestone/base/nearest_name.h"
 #include "lodestone/base/plain_line.h"
 
 namespace lodestone::app {
@@ -76,22 +76,6 @@ std::string help_hint(const CLI::App& app) {
   return fmt::format("; see `lodestone {}--help`", parsed.empty() ? "" : parsed.back()->get_name() + " ");
 }
 
-// How many letters must change, come or go to make one word of the other.
-size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t(0));
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 // What is wrong with the first option that the command does not have; empty where it has all of them.
 std::string unknown_option(const CLI::App& app, const std::vector<std::string>& arguments) {
   const auto parsed = app.get_subcommands();
@@ -99,12 +83,12 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
   for (const std::string& argument : arguments) {
     const std::string name = argument.substr(0, argument.find('='));
     if (!name.starts_with("--") || command.get_option_no_throw(name) != nullptr) continue;
+    std::vector<std::string> known;
     for (const CLI::Option* option : command.get_options()) {
-      for (const std::string& known : option->get_lnames()) {
-        if (edit_distance(name, "--" + known) <= std::max(known.size() / 3, size_t(1)))
-          return fmt::format("{}: there is no such option; did you mean --{}?", name, known);
-      }
+      for (const std::string& long_name : option->get_lnames()) known.push_back("--" + long_name);
     }
+    if (const auto meant = nearest_name(name, known))
+      return fmt::format("{}: there is no such option; did you mean {}?", name, *meant);
     return name + ": there is no such option";
   }
   return "";

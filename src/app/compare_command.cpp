@@ -71,7 +71,7 @@ void add_threshold_options(CLI::App& app, image::Thresholds& thresholds) {
   add_value(
       app, "--pixel-share", "X", "Share of pixels that may differ, 0..1 (default: 0)",
       [&](const std::string& text) { thresholds.pixel_share = parse_number("--pixel-share", text, 0, 1); });
-  add_value(app, "--ignore", "CHANNELS", "Leave channels out, e.g. steps.N,depth.Z",
+  add_value(app, "--ignore", "CHANNELS", "Leave channels or layers out, e.g. steps.N,depth",
             [&](const std::string& text) { thresholds.ignore = parse_list("--ignore", text); });
 }
 

@@ -104,6 +104,9 @@ void render_frames(const ParityOptions& options, const PreparedScene& prepared, 
 int report(const ParityOptions& options, const render::ParityBackend& parity) {
   const std::vector<PassDifference>& differences = parity.differences();
   const std::vector<std::string> passes = pass_names(differences);
+  if (options.fault && std::find(passes.begin(), passes.end(), options.fault->pass) == passes.end())
+    fail(ExitCode::usage, "--fault", "no pass `{}` ran; there is {}", options.fault->pass,
+         join_names(passes));
   const std::string device = parity.info().name;
   const auto different = std::find_if(differences.begin(), differences.end(),
                                       [](const PassDifference& row) { return row.different > 0; });
@@ -115,9 +118,6 @@ int report(const ParityOptions& options, const render::ParityBackend& parity) {
                         device);
   if (!options.log.empty()) write_file(options.log, text);
   if (log::level() != log::Level::quiet) fmt::print("{}", text);
-  if (options.fault && std::find(passes.begin(), passes.end(), options.fault->pass) == passes.end())
-    fail(ExitCode::usage, "--fault", "no pass `{}` ran; there is {}", options.fault->pass,
-         join_names(passes));
   if (different == differences.end()) return int(ExitCode::done);
   fail(ExitCode::different, options.scene.scene,
        "the pass `{}` is the first that differs on {}: {} of {} words of its buffer `{}`, first word {}: {} "

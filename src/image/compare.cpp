@@ -110,7 +110,9 @@ Sums add_all(const std::vector<Pair>& pairs, size_t pixels, double threshold) {
 }
 
 bool is_ignored(const std::string& name, const Thresholds& thresholds) {
-  return std::find(thresholds.ignore.begin(), thresholds.ignore.end(), name) != thresholds.ignore.end();
+  return std::any_of(thresholds.ignore.begin(), thresholds.ignore.end(), [&](const std::string& ignored) {
+    return name == ignored || name.starts_with(ignored + '.');
+  });
 }
 
 // The channels to compare; sets same_channels and first_difference where the images do not hold the same.

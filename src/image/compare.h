@@ -20,7 +20,8 @@ struct Thresholds {
   // may, 0..1. These two are one rule, set as soon as one of them is above 0.
   double pixel = 0;
   double pixel_share = 0;
-  std::vector<std::string> ignore;  // channels left out, e.g. steps.N; names that no image has do no harm
+  // Channels left out, e.g. steps.N, or layers, e.g. depth; names that no image has do no harm.
+  std::vector<std::string> ignore;
 };
 
 // A sample that is non-finite in one image and not the same in the other, and an id against another id, are

@@ -75,7 +75,8 @@ class MaterialConverter {
       log::warn_once(
           reader_.file() + " alpha blending",
           fmt::format(
-              "{}: {}: blended transparency is drawn as cut out at alpha 0.5, in all materials that have it",
+              "{}: {}: blended transparency is drawn as cut out at alpha 0.5, in all materials that have it; "
+              "what is fainter is not seen",
               reader_.file(), label_));
     } else {
       fail_input(reader_.file(), "{}: alphaMode '{}' does not exist; export it again", label_,

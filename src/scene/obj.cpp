@@ -42,6 +42,7 @@ class ObjParser {
           fmt::format("{}: {} faces of fewer than 3 corners are left out", reader_.file(), small_faces_));
     }
     if (mesh_.triangles.empty()) {
+      if (positions_.empty()) fail_input(reader_.file(), "holds no vertex (v): is it an OBJ file at all?");
       fail_input(reader_.file(), "has no faces; export the file as a polygon mesh");
     }
     build_vertices();

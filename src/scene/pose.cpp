@@ -8,6 +8,7 @@
 #include <set>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/nearest_name.h"
 #include "lodestone/scene/interpolate.h"
 #include "lodestone/scene/text_reader.h"
 
@@ -30,6 +31,12 @@ std::string list_of(const std::vector<std::string>& names) {
     list += (i > 0 ? ", " : "") + shown(names[i]);
   if (names.size() > max_names_shown) list += fmt::format(" and {} more", names.size() - max_names_shown);
   return list;
+}
+
+// "it has a, b and c", after what `name` may have been meant for.
+std::string choice_of(const std::string& name, const std::vector<std::string>& names) {
+  const auto meant = nearest_name(name, names);
+  return (meant ? "did you mean '" + shown(*meant) + "'? It has " : "it has ") + list_of(names);
 }
 
 glm::mat4 local_matrix(const Node& node, const glm::vec3& translation, const glm::quat& rotation,
@@ -124,7 +131,7 @@ uint32_t find_animation(const Scene& scene, const std::string& name) {
   }
   std::vector<std::string> names;
   for (const Animation& animation : animations) names.push_back(animation.name);
-  fail(ExitCode::usage, scene.name, "has no clip '{}'; it has {} (or 0 to {})", name, list_of(names),
+  fail(ExitCode::usage, scene.name, "has no clip '{}'; {} (or 0 to {})", name, choice_of(name, names),
        animations.size() - 1);
 }
 
@@ -169,7 +176,7 @@ void override_weights(const Scene& scene, const std::map<std::string, float>& we
     if (number && set_weights(scene, value, pose, by_number)) continue;
     const std::vector<std::string> names = target_names(scene);
     if (names.empty()) fail(ExitCode::usage, scene.name, "has no morph targets; leave out --weights");
-    fail(ExitCode::usage, scene.name, "has no morph target '{}'; it has {}", name, list_of(names));
+    fail(ExitCode::usage, scene.name, "has no morph target '{}'; {}", name, choice_of(name, names));
   }
 }
 

@@ -42,6 +42,7 @@ std::vector<std::string> with(std::vector<std::string> more) {
 const Wrong wrong_values[] = {
     {"NoCommand", {}, {"command"}},
     {"UnknownCommand", {"rendr"}, {"rendr", "render", "devices"}},
+    {"UnknownTarget", with({"--weights", "Fould=1"}), {"no morph target 'Fould'", "did you mean 'fold'?"}},
     {"UnknownOption", with({"--sice", "8x8"}), {"--sice", "did you mean --size?", "render --help"}},
     {"OptionUnlikeAnyOther", with({"--raytrace"}), {"--raytrace: there is no such option; see"}},
     {"NoScene", {"render", "-o", "x.png"}, {"SCENE"}},

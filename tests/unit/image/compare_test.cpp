@@ -204,6 +204,10 @@ TEST(Compare, IdsCompareExactlyAndStayOutOfTheMeasures) {
   Thresholds ignoring = generous();
   ignoring.ignore = {"id.mesh"};
   EXPECT_TRUE(compare(rendered(), other, ignoring).pass);
+  ignoring.ignore = {"id"};  // the layer
+  EXPECT_TRUE(compare(rendered(), other, ignoring).pass);
+  ignoring.ignore = {"i", "id.", "mesh"};
+  EXPECT_FALSE(compare(rendered(), other, ignoring).pass);
 }
 
 TEST(Compare, EachThresholdIsKeptAtItsValueAndBrokenBelow) {

@@ -41,8 +41,8 @@ const std::string facet =
     "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n";
 
 const std::vector<Malformed> files{
-    {"ObjEmpty", ".obj", "", "has no faces"},
-    {"ObjOfBytes", ".obj", nul + "\xff\xfe\x01", "has no faces"},
+    {"ObjEmpty", ".obj", "", "holds no vertex"},
+    {"ObjOfBytes", ".obj", nul + "\xff\xfe\x01", "holds no vertex"},
     {"ObjWithoutFaces", ".obj", vertices3, "has no faces"},
     {"ObjCoordinateMissing", ".obj", vertices3 + "v 1 2\nf 1 2 3\n", "line 4: a coordinate of v is missing"},
     {"ObjNan", ".obj", "v 0 nan 0\nf 1 1 1\n", "line 1: a coordinate of v `nan` is not a finite number"},
