@@ -72,12 +72,11 @@ constexpr size_t count = 1 << 14;
 bool is_nan(uint32_t bits) {
   return (bits & 0x7fffffffu) > 0x7f800000u;
 }
-// Results of these have bits of three numbers in them: those of a NaN are not compared.
-bool mixes_bits(uint32_t op) {
-  return op == layout::op_cross || op == layout::op_normalize || op == layout::op_cos_sin;
-}
-bool has_nan(const glm::uvec4& v) {
-  return is_nan(v.x) || is_nan(v.y) || is_nan(v.z) || is_nan(v.w);
+// Results of these have bits of several numbers in them, and those of a NaN are not compared; or they are not
+// defined for a NaN (exp2_).
+bool takes_no_nan(uint32_t op) {
+  return op == layout::op_cross || op == layout::op_normalize || op == layout::op_cos_sin ||
+         op == layout::op_exp2;
 }
 bool equal(uint32_t a, uint32_t b) {
   return a == b || (is_nan(a) && is_nan(b));
@@ -107,6 +106,13 @@ std::vector<glm::uvec4> operands() {
   return all;
 }
 
+std::vector<glm::uvec4> without_nan(std::vector<glm::uvec4> vectors) {
+  for (glm::uvec4& v : vectors) {
+    for (int i = 0; i < 4; ++i) v[i] = is_nan(v[i]) ? 0x40490fdbu : v[i];
+  }
+  return vectors;
+}
+
 // Calls check(name of the width) with each width of this processor in turn.
 template <class Check>
 void at_every_width(const Check& check) {
@@ -121,13 +127,13 @@ void at_every_width(const Check& check) {
 }
 
 TEST(Varying, OperationsHaveTheBitsOfScalarOnes) {
-  const std::vector<glm::uvec4> vectors = operands();
+  const std::vector<glm::uvec4> all = operands(), numbers = without_nan(all);
   at_every_width([&](const char* width) {
     for (uint32_t op = 0; op < layout::op_count; ++op) {
+      const std::vector<glm::uvec4>& vectors = takes_no_nan(op) ? numbers : all;
       std::vector<uint32_t> results(count);
       HWY_DYNAMIC_DISPATCH(apply)(op, vectors, results.data());
       for (size_t i = 0; i < count; ++i) {
-        if (mixes_bits(op) && has_nan(vectors[i])) continue;
         const uint32_t expected = layout::apply_operation(op, vectors[i]);
         ASSERT_TRUE(equal(results[i], expected))
             << "operation " << op << " at " << width << ": " << std::hex << vectors[i].x << " "
