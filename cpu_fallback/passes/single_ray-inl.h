@@ -417,8 +417,6 @@ HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32
   Flight flights[flights_at_once];
   Flight* active[flights_at_once];
   uint32_t next = 0, size = 0;
-  // Where leaves' places are near in any case, fetching them early costs more than it saves.
-  const uint32_t leaves_from = block.leaves_are_near() ? block.end_record() : block.first_leaf_record();
   const auto fill = [&](Flight& flight) HWY_ATTR {
     while (next < count) {
       if (start(block, indices[next++], flight)) return true;
@@ -436,11 +434,11 @@ HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32
         hwy::Prefetch(&block.wide_node(flight.record).planes[0]);
         hwy::Prefetch(&block.wide_node(flight.record).planes[1]);
         hwy::Prefetch(&block.wide_node(flight.record).planes[2]);
-        if (flight.record >= leaves_from) {
-          const uint32_t* leaves = block.leaves((flight.record - leaves_from) * wide_fan);
-          hwy::Prefetch(leaves);
-          hwy::Prefetch(leaves + wide_fan);
-        }
+        // Without a branch: where the record is no leaf, the first one's, which is near.
+        const uint32_t first = block.first_leaf_record();
+        const uint32_t* leaves = block.leaves((std::max(flight.record, first) - first) * wide_fan);
+        hwy::Prefetch(leaves);
+        hwy::Prefetch(leaves + wide_fan);
         continue;
       }
       block.finish(flight.index, true, flight.best, flight.visits);

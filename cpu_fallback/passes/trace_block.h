@@ -12,8 +12,7 @@
 namespace lodestone::cpu_fallback {
 
 inline constexpr uint32_t packet_rays = 16;
-inline constexpr uint32_t near_slots = 1u << 15;  // two words each in the leaf map
-inline constexpr uint32_t trace_grain = 1024;     // rays of a task, at most
+inline constexpr uint32_t trace_grain = 1024;  // rays of a task, at most
 
 template <class Probe>
 class TraceBlock : public TraceKernel<Probe> {
@@ -116,8 +115,6 @@ class TraceBlock : public TraceKernel<Probe> {
   const WideNode& wide_node(uint32_t record) const { return wide_[record]; }
   uint32_t first_leaf_record() const { return first_leaf_record_; }
   uint32_t end_record() const { return end_record_; }
-  // Whether the caches next to a core hold the places of all quads.
-  bool leaves_are_near() const { return this->push_.slots <= near_slots; }
   // Where the quads of the slots from `slot` on are found, two words each; for prefetching.
   const uint32_t* leaves(uint32_t slot) const { return leaf_map_.words + 2 * uint64_t(slot); }
   // The quad of a slot; false: there is none.
