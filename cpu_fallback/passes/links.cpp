@@ -36,9 +36,10 @@ class Links : public VaryingKernel<Probe> {
     while (any_lane(searching)) {
       const uvec1 up = uvec1(findLSB(next)) >> 1u;
       const uvec1 place = next >> (2u * up);
-      const uvec1 level = depth - up;
-      // Past the root, or nothing but padding from there on.
-      searching = searching && up < depth && (place << (2u * (push_.leaf_depth - level))) < push_.slots;
+      searching = searching && up < depth;  // not past the root
+      const uvec1 level = select(searching, depth - up, 0u);
+      // Or nothing but padding from there on.
+      searching = searching && (place << (2u * (push_.leaf_depth - level))) < push_.slots;
       const bvec1 leaf = searching && level == push_.leaf_depth;
       bvec1 empty = false;
       if (const Where leaves(*this, leaf); leaves.any()) {

@@ -173,15 +173,15 @@ struct LaneWords {
   HWY_ATTR uvec1 lanes() const { return hn::Load(Unsigneds(), at); }
 };
 
-// Quotients, rounded towards zero; one by 0 is anything. As long as the operands are below 2^22 that of
+// Quotients, rounded towards zero; one by 0 is that by 1. As long as the operands are below 2^22 that of
 // floats is exact: it differs from the next integer by 1 / b, more than its rounding.
 template <class Word>
 HWY_ATTR inline uvec1 divided(uvec1 a, uvec1 b) {
   LaneWords quotients(a);
   const LaneWords divisors(b);
   for (uint32_t i = 0; i < lane_count; ++i) {
-    const auto by = static_cast<Word>(divisors.at[i]);
-    const int64_t quotient = int64_t{static_cast<Word>(quotients.at[i])} / (by != 0 ? by : Word{1});
+    const int64_t quotient =
+        int64_t{static_cast<Word>(quotients.at[i])} / int64_t{static_cast<Word>(divisors.at[i])};
     quotients.at[i] = static_cast<uint32_t>(quotient);
   }
   return quotients.lanes();
@@ -190,10 +190,12 @@ HWY_ATTR inline bool below_2_to_22(uvec1 sizes) {
   return !any_lane((sizes & 0xffc00000u) != 0u);
 }
 HWY_ATTR inline uvec1 operator/(uvec1 a, uvec1 b) {
+  b = select(b == 0u, 1u, b);
   if (HWY_LIKELY(below_2_to_22(a | b))) return uvec1(vec1(a) / vec1(b));
   return divided<uint32_t>(a, b);
 }
 HWY_ATTR inline ivec1 operator/(ivec1 a, ivec1 b) {
+  b = select(b == 0, 1, b);
   if (HWY_LIKELY(below_2_to_22(uvec1(ivec1(hn::Abs(a.v))) | uvec1(ivec1(hn::Abs(b.v)))))) {
     return ivec1(vec1(a) / vec1(b));
   }
