@@ -79,14 +79,8 @@ struct Structs {
 inline glm::vec3 as_vec3(const glm::uvec4& bits) {
   return {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y), layout::uintBitsToFloat(bits.z)};
 }
-inline glm::vec4 as_vec4(const glm::uvec4& bits) {
-  return {as_vec3(bits), layout::uintBitsToFloat(bits.w)};
-}
 inline glm::uvec4 as_bits(const glm::vec3& v, uint32_t w) {
   return {layout::floatBitsToUint(v.x), layout::floatBitsToUint(v.y), layout::floatBitsToUint(v.z), w};
-}
-inline glm::uvec4 as_bits(const glm::vec4& v) {
-  return as_bits(glm::vec3(v), layout::floatBitsToUint(v.w));
 }
 
 // The base of every pass: its probe, and the constants and buffers of the dispatch.
@@ -146,34 +140,12 @@ class Kernel {
   const CpuDispatch& dispatch_;
 };
 
-template <template <class> class Pass, class ProbeType>
-void run_with(const CpuDispatch& dispatch, uint64_t grain) {
-  std::mutex mutex;
-  parallel_for(dispatch.invocations, grain, [&](uint64_t begin, uint64_t end) {
-    Pass<ProbeType> pass(dispatch);
-    for (uint64_t i = begin; i < end; ++i) pass(static_cast<uint32_t>(i));
-    if constexpr (ProbeType::counting) {
-      const std::lock_guard lock(mutex);
-      add_counters(*dispatch.counters, pass.probe.counts);
-    }
-  });
-}
-
-// Every invocation of a pass, in blocks of `grain`.
-template <template <class> class Pass>
-void run_pass(const CpuDispatch& dispatch, uint64_t grain) {
-  if (dispatch.counting) {
-    run_with<Pass, CountingProbe>(dispatch, grain);
-  } else {
-    run_with<Pass, EmptyProbe>(dispatch, grain);
-  }
-}
-
 // Invocations [begin, end) of a pass; `counters`: null, or what they are added to.
 using BlockFunction = void (*)(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,
                                render::Counters* counters);
 
-// The same for a pass that is compiled once a SIMD target: `block` is the one that run-time dispatch chose.
+// Every invocation of a pass, in blocks of `grain`. Where the pass is compiled once a SIMD target, `block` is
+// the one that run-time dispatch chose.
 inline void run_blocks(const CpuDispatch& dispatch, uint64_t grain, BlockFunction block) {
   std::mutex mutex;
   parallel_for(dispatch.invocations, grain, [&](uint64_t begin, uint64_t end) {
@@ -186,18 +158,19 @@ inline void run_blocks(const CpuDispatch& dispatch, uint64_t grain, BlockFunctio
   });
 }
 
-// Defines NAME_block, a BlockFunction, for the pass template PASS inside the namespace of a SIMD target.
-#define LODESTONE_BLOCK_FUNCTION(NAME, PASS)                                            \
-  HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end, \
-                             render::Counters* counters) {                              \
-    if (counters == nullptr) {                                                          \
-      PASS<EmptyProbe> pass(dispatch);                                                  \
-      for (uint32_t i = begin; i < end; ++i) pass(i);                                   \
-    } else {                                                                            \
-      PASS<CountingProbe> pass(dispatch);                                               \
-      for (uint32_t i = begin; i < end; ++i) pass(i);                                   \
-      *counters = pass.probe.counts;                                                    \
-    }                                                                                   \
+// Defines NAME_block, a BlockFunction, for the pass template PASS. ATTRIBUTES: HWY_ATTR where it is compiled
+// once a SIMD target, else static.
+#define LODESTONE_BLOCK_FUNCTION(ATTRIBUTES, NAME, PASS)                                  \
+  ATTRIBUTES void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end, \
+                               render::Counters* counters) {                              \
+    if (counters == nullptr) {                                                            \
+      PASS<EmptyProbe> pass(dispatch);                                                    \
+      for (uint32_t i = begin; i < end; ++i) pass(i);                                     \
+    } else {                                                                              \
+      PASS<CountingProbe> pass(dispatch);                                                 \
+      for (uint32_t i = begin; i < end; ++i) pass(i);                                     \
+      *counters = pass.probe.counts;                                                      \
+    }                                                                                     \
   }
 
 }  // namespace lodestone::cpu_fallback

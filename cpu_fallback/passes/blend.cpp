@@ -27,8 +27,8 @@ class Blend : public Kernel<Probe> {
     const float* base_tangent = push_.tangents != 0 ? this->loaded(base_tangents_, vertex) : nullptr;
     Lanes4 tangent = base_tangent != nullptr ? load_lanes(base_tangent) : all_lanes(0);
     for (uint32_t i = range.x; i < range.y; ++i) {
-      const float* entry =
-          this->loaded(morph_positions_, i);  // { bits of the weight's index, delta x, y, z }
+      // { bits of the weight's index, delta x, y, z }
+      const float* entry = this->loaded(morph_positions_, i);
       const uint32_t index = layout::floatBitsToUint(entry[0]);
       const Lanes4 weight = all_lanes(layout::uintBitsToFloat(this->load(weights_, index)));
       const Lanes4 delta = without_first(load_lanes(entry));
@@ -90,7 +90,7 @@ class Blend : public Kernel<Probe> {
   layout::BlendPush push_ = this->template push<layout::BlendPush>();
 };
 
-LODESTONE_BLOCK_FUNCTION(blend, Blend)
+LODESTONE_BLOCK_FUNCTION(HWY_ATTR, blend, Blend)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

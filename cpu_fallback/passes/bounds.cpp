@@ -57,7 +57,7 @@ class Bounds : public Kernel<Probe> {
   layout::BoundsPush push_ = this->template push<layout::BoundsPush>();
 };
 
-LODESTONE_BLOCK_FUNCTION(bounds, Bounds)
+LODESTONE_BLOCK_FUNCTION(HWY_ATTR, bounds, Bounds)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -56,7 +56,7 @@ class BoundsLeaves : public Kernel<Probe> {
   layout::BoundsPush push_ = this->template push<layout::BoundsPush>();
 };
 
-LODESTONE_BLOCK_FUNCTION(bounds_leaves, BoundsLeaves)
+LODESTONE_BLOCK_FUNCTION(HWY_ATTR, bounds_leaves, BoundsLeaves)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -47,7 +47,7 @@ class Rasterise : public Kernel<Probe> {
   Quads geometry_ = this->quads(4), normal_map_ = this->quads(5);
 };
 
-LODESTONE_BLOCK_FUNCTION(rasterise, Rasterise)
+LODESTONE_BLOCK_FUNCTION(HWY_ATTR, rasterise, Rasterise)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

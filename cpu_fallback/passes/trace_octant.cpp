@@ -47,10 +47,12 @@ class TraceOctant : public TraceKernel<Probe> {
   float extent_ = this->scene_extent();
 };
 
+LODESTONE_BLOCK_FUNCTION(static, trace_octant, TraceOctant)
+
 }  // namespace
 
 void trace_octant(const CpuDispatch& dispatch) {
-  run_pass<TraceOctant>(dispatch, 256);
+  run_blocks(dispatch, 256, trace_octant_block);
 }
 
 }  // namespace lodestone::cpu_fallback

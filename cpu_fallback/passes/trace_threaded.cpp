@@ -45,10 +45,12 @@ class TraceThreaded : public TraceKernel<Probe> {
   float extent_ = this->scene_extent();
 };
 
+LODESTONE_BLOCK_FUNCTION(static, trace_threaded, TraceThreaded)
+
 }  // namespace
 
 void trace_threaded(const CpuDispatch& dispatch) {
-  run_pass<TraceThreaded>(dispatch, 256);
+  run_blocks(dispatch, 256, trace_threaded_block);
 }
 
 }  // namespace lodestone::cpu_fallback

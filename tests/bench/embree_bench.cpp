@@ -16,6 +16,7 @@
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/embree_scene.h"
 #include "lodestone/test_support/grid_sphere.h"
+#include "lodestone/test_support/median.h"
 #include "lodestone/test_support/ready_scene.h"
 
 namespace lodestone::test {
@@ -25,11 +26,6 @@ double seconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 struct Rounds {

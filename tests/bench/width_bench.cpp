@@ -10,15 +10,11 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/cpu_fallback/cpu_backend.h"
+#include "lodestone/test_support/median.h"
 #include "lodestone/test_support/ready_scene.h"
 
 namespace lodestone::test {
 namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 using PassTimes = std::map<std::string, double>;  // milliseconds a frame
 
