@@ -3,12 +3,13 @@
 //
 // A chart is a rectangle of width x height texels (samples of the surface) in one run of the geometry image,
 // row by row; its (width-1) x (height-1) quads are leaves of the hierarchy. The leaves of a chart, in Morton
-// order, fill a block of 4^k slots that starts at a multiple of 4^k; slots without a quad are empty. The
+// order, fill a block of 2^k slots that starts at a multiple of 2^k; slots without a quad are empty. The
 // blocks of all charts, one after the other, are the leaves of one implicit 4-ary tree: the lower levels are
-// each chart's MIP pyramid, the upper ones the static tree over the charts. Level `depth` (0: the root) has
-// 4^depth places; node `index` of it is at address (4^depth - 1) / 3 + index, and its children are 4 * index
-// + 0..3 of the next. One address serves the links, the bounds and the leaf map (section 3.2 of the paper: "a
-// single uv coordinate").
+// each chart's MIP pyramid, the upper ones the static tree over the charts. Where k is odd, a block is half
+// of a node (two of its children), and the other half is another chart or smaller ones. Level `depth` (0: the
+// root) has 4^depth places; node `index` of it is at address (4^depth - 1) / 3 + index, and its children are
+// 4 * index + 0..3 of the next. One address serves the links, the bounds and the leaf map (section 3.2 of the
+// paper: "a single uv coordinate").
 #ifndef LODESTONE_LAYOUT_ATLAS_H
 #define LODESTONE_LAYOUT_ATLAS_H
 
@@ -33,7 +34,7 @@ struct ChartRecord {
   uvec1 kind;
   uvec1 first_triangle;  // in the triangle buffer
   uvec1 first_slot;
-  uvec1 slot_count;  // a power of 4
+  uvec1 slot_count;  // a power of 2
   uvec1 pad;
 };
 // There can be a chart a triangle, so that charts too are an array of quads, two each.

@@ -24,7 +24,7 @@ namespace lodestone::geometry_image {
 namespace {
 
 constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
-constexpr uint32_t version = 2;
+constexpr uint32_t version = 3;
 constexpr uint32_t content_atlas = 1;
 constexpr size_t checksum_digits = 32;
 

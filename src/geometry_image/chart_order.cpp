@@ -31,17 +31,18 @@ glm::length_t longest_axis(const Box& box) {
   return size.y >= size.z ? 1 : 2;
 }
 
-void order_by_median(std::span<ChartCenter> run, uint64_t first_place) {
+void order_by_median(std::span<ChartCenter> run, uint64_t first_slot, uint64_t block) {
   constexpr size_t worth_a_task = 1u << 14;
   if (run.size() < 2) return;
-  const uint64_t left = aligned_split(first_place, run.size());
+  const uint64_t left = aligned_split(first_slot, block, run.size());
   const glm::length_t axis = longest_axis(bounds(run));
   std::nth_element(run.begin(), run.begin() + static_cast<std::ptrdiff_t>(left), run.end(),
                    [axis](const ChartCenter& a, const ChartCenter& b) {
                      return std::tie(a.center[axis], a.chart) < std::tie(b.center[axis], b.chart);
                    });
   const auto order_side = [&](bool upper) {
-    order_by_median(upper ? run.subspan(left) : run.first(left), upper ? first_place + left : first_place);
+    order_by_median(upper ? run.subspan(left) : run.first(left),
+                    upper ? first_slot + left * block : first_slot, block);
   };
   if (run.size() >= worth_a_task) {
     parallel_for(2, 1, [&](uint64_t side, uint64_t) { order_side(side == 1); });
@@ -71,25 +72,26 @@ void order_by_hilbert(std::span<ChartCenter> run) {
 
 }  // namespace
 
-void order_charts(std::span<ChartCenter> run, uint64_t first_place, ChartOrder order) {
+void order_charts(std::span<ChartCenter> run, uint64_t first_slot, uint64_t block, ChartOrder order) {
   if (run.empty()) return;
   if (order == ChartOrder::median) {
-    order_by_median(run, first_place);
+    order_by_median(run, first_slot, block);
   } else {
     order_by_hilbert(run);
   }
 }
 
-uint64_t aligned_split(uint64_t first_place, uint64_t count) {
-  const uint64_t last = first_place + count - 1;
-  // The highest bit in which the first and the last place differ tells the largest subtree that holds no more
-  // than one of them; every place at which such a subtree starts is a multiple of its size.
-  const auto level = static_cast<uint32_t>(std::bit_width(first_place ^ last) - 1) / 2;
-  const uint64_t subtree = uint64_t(1) << (2 * level);
-  const uint64_t lowest = (first_place / subtree + 1) * subtree, highest = last / subtree * subtree;
-  const uint64_t middle = first_place + count / 2;
+uint64_t aligned_split(uint64_t first_slot, uint64_t block, uint64_t count) {
+  const uint64_t last = first_slot + (count - 1) * block;
+  // The highest bit in which the first and the last block differ tells the largest subtree that holds no more
+  // than one of them; every slot at which such a subtree starts is a multiple of its size. Two blocks that
+  // share a node are parted where one of them ends.
+  const auto level = static_cast<uint32_t>(std::bit_width(first_slot ^ last) - 1) / 2;
+  const uint64_t subtree = std::max(uint64_t(1) << (2 * level), block);
+  const uint64_t lowest = (first_slot / subtree + 1) * subtree, highest = last / subtree * subtree;
+  const uint64_t middle = first_slot + count / 2 * block;
   const uint64_t nearest = (middle + subtree / 2) / subtree * subtree;
-  return std::clamp(nearest, lowest, highest) - first_place;
+  return (std::clamp(nearest, lowest, highest) - first_slot) / block;
 }
 
 // John Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707 (2004): undo the rotations

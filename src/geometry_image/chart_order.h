@@ -24,13 +24,14 @@ struct ChartCenter {
   uint32_t chart = 0;
 };
 
-// Orders a run of blocks; the first stands at place `first_place` of its level of the tree. Neither the order
-// in which they are given nor the number of threads shows. Centers must be finite, charts different.
-void order_charts(std::span<ChartCenter> run, uint64_t first_place, ChartOrder order);
+// Orders a run of blocks of `block` slots each, a power of 2; the first stands at `first_slot`, a multiple of
+// that. Neither the order in which they are given nor the number of threads shows. Centers must be finite,
+// charts different.
+void order_charts(std::span<ChartCenter> run, uint64_t first_slot, uint64_t block, ChartOrder order);
 
-// For a run of `count` > 1 blocks at `first_place`: after how many to split it. A border of the largest
-// subtrees that the run spans, the one nearest to the middle.
-uint64_t aligned_split(uint64_t first_place, uint64_t count);
+// For a run of `count` > 1 such blocks: after how many to split it. A border of the largest subtrees that the
+// run spans, the one nearest to the middle. Where two blocks are a node, those of one node part last.
+uint64_t aligned_split(uint64_t first_slot, uint64_t block, uint64_t count);
 
 // Place on the 3D Hilbert curve of 2^bits cells a side (bits at most 21); coordinates below 2^bits.
 uint64_t hilbert_index(glm::uvec3 cell, uint32_t bits);

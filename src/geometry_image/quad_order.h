@@ -2,7 +2,8 @@
 // Where the quads of a chart stand within its block of slots: in Morton order, so that every 4^j slots that
 // start at a multiple of 4^j are a small rectangle of quads. Of a chart that is longer one way, the bits that
 // the longer side has more stand on top: the block is a row of squares, and a thin chart does not need a
-// block as wide as it is long.
+// block as wide as it is long. Up to the size of these squares all nodes are squares; of 2 or 8 of them the
+// block is half a node.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +22,9 @@ class QuadOrder {
         common_bits_(
             static_cast<uint32_t>(std::min(std::bit_width(width_ - 1), std::bit_width(height_ - 1)))) {}
 
-  // The block's size: the lowest power of 4 that holds all slots.
+  // The block's size: the lowest power of 2 that holds all slots.
   static uint64_t block_slots(const layout::ChartRecord& chart) {
-    const int bits = std::bit_width(chart.width - 2) + std::bit_width(chart.height - 2);
-    return uint64_t(1) << (2 * ((bits + 1) / 2));
+    return uint64_t(1) << (std::bit_width(chart.width - 2) + std::bit_width(chart.height - 2));
   }
 
   uint32_t slot(uint32_t x, uint32_t y) const {

@@ -25,20 +25,38 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
                "simplify them",
                slots, charts.size(), slot_limit);
   }
-  std::array<std::vector<ChartCenter>, layout::max_depth + 1> classes;  // by the power of 4
+  // Nodes of 4^k slots, by k: charts that fill one, and charts of which two do.
+  std::array<std::vector<ChartCenter>, layout::max_depth + 1> whole, halves;
   for (uint32_t i = 0; i < charts.size(); ++i) {
-    const auto power = static_cast<size_t>(std::bit_width(QuadOrder::block_slots(charts[i])) / 2);
-    classes[power].push_back({centers.empty() ? glm::vec3(0) : centers[i], i});
+    const auto bits = static_cast<size_t>(std::bit_width(QuadOrder::block_slots(charts[i])) - 1);
+    (bits % 2 == 0 ? whole : halves)[(bits + 1) / 2].push_back(
+        {centers.empty() ? glm::vec3(0) : centers[i], i});
   }
+  const auto pairs = static_cast<uint32_t>(charts.size());  // numbers from here on are pairs, not charts
   uint64_t next = 0;
-  for (size_t power = classes.size(); power-- > 0;) {
-    const uint64_t block = uint64_t(1) << (2 * power);
-    order_charts(classes[power], next / block, order);
-    for (const ChartCenter& placed : classes[power]) {
-      charts[placed.chart].first_slot = static_cast<uint32_t>(next);
-      charts[placed.chart].slot_count = static_cast<uint32_t>(block);
-      next += block;
+  const auto place = [&](uint32_t chart, uint64_t block) {
+    charts[chart].first_slot = static_cast<uint32_t>(next);
+    charts[chart].slot_count = static_cast<uint32_t>(block);
+    next += block;
+  };
+  for (size_t power = whole.size(); power-- > 0;) {
+    const uint64_t node = uint64_t(1) << (2 * power);
+    std::vector<ChartCenter>& nodes = whole[power];
+    std::vector<ChartCenter>& half = halves[power];
+    order_charts(half, 0, node / 2, order);
+    for (uint32_t i = 0; i + 1 < half.size(); i += 2) {
+      nodes.push_back({0.5f * half[i].center + 0.5f * half[i + 1].center, pairs + i});
     }
+    order_charts(nodes, next, node, order);
+    for (const ChartCenter& placed : nodes) {
+      if (placed.chart < pairs) {
+        place(placed.chart, node);
+      } else {
+        place(half[placed.chart - pairs].chart, node / 2);
+        place(half[placed.chart - pairs + 1].chart, node / 2);
+      }
+    }
+    if (half.size() % 2 != 0) place(half.back().chart, node / 2);
   }
   return slots;
 }

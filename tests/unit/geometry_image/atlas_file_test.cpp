@@ -88,7 +88,11 @@ TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
                "bake it again");
-  file[8] = std::byte(2);
+  file[8] = std::byte(2);  // as files were when every block was a power of 4
+  sign(file);
+  expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
+               "bake it again");
+  file[8] = std::byte(3);
   file[12] = std::byte(2);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <random>
 #include <set>
 #include <vector>
@@ -21,32 +23,44 @@ std::vector<ChartCenter> random_centers(uint32_t count, uint32_t seed) {
   return centers;
 }
 
-std::vector<uint32_t> order(std::vector<ChartCenter> centers, uint64_t first_place, ChartOrder kind) {
-  order_charts(centers, first_place, kind);
+std::vector<uint32_t> order(std::vector<ChartCenter> centers, uint64_t first_slot, ChartOrder kind,
+                            uint64_t block = 1) {
+  order_charts(centers, first_slot, block, kind);
   std::vector<uint32_t> charts;
   for (const ChartCenter& center : centers) charts.push_back(center.chart);
   return charts;
 }
 
 TEST(AlignedSplit, CutsAtTheBorderOfTheLargestSubtreesNearestToTheMiddle) {
-  for (uint64_t first = 0; first < 70; ++first) {
-    for (uint64_t count = 2; count < 150; ++count) {
-      uint64_t subtree = 1;  // the largest power of 4 with a multiple strictly inside
-      for (uint64_t power = 1; power < 1024; power *= 4) {
-        if ((first / power + 1) * power < first + count) subtree = power;
-      }
-      const uint64_t split = aligned_split(first, count);
-      ASSERT_GT(split, 0u);
-      ASSERT_LT(split, count);
-      ASSERT_EQ((first + split) % subtree, 0u) << first << " " << count;
-      const auto off_middle = [&](uint64_t at) { return std::abs(int64_t(2 * at) - int64_t(count)); };
-      for (uint64_t at = 1; at < count; ++at) {
-        if ((first + at) % subtree != 0) continue;
-        // To within half a block: the middle of an odd run is between two.
-        ASSERT_LE(off_middle(split), off_middle(at) + 1) << first << " " << count;
+  for (const uint64_t block : {1u, 2u, 16u, 32u}) {
+    for (uint64_t first = 0; first < 70; ++first) {
+      for (uint64_t count = 2; count < 150; ++count) {
+        uint64_t subtree = 1;  // in blocks: the largest that is a power of 4 slots with a multiple inside
+        for (uint64_t power = 1; power < 4096; power *= 2) {
+          const bool is_node = std::countr_zero(power * block) % 2 == 0;
+          if (is_node && (first / power + 1) * power < first + count) subtree = power;
+        }
+        const uint64_t split = aligned_split(first * block, block, count);
+        ASSERT_GT(split, 0u);
+        ASSERT_LT(split, count);
+        ASSERT_EQ((first + split) % subtree, 0u) << first << " " << count;
+        const auto off_middle = [&](uint64_t at) { return std::abs(int64_t(2 * at) - int64_t(count)); };
+        for (uint64_t at = 1; at < count; ++at) {
+          if ((first + at) % subtree != 0) continue;
+          // To within half a block: the middle of an odd run is between two.
+          ASSERT_LE(off_middle(split), off_middle(at) + 1) << first << " " << count;
+        }
       }
     }
   }
+}
+
+TEST(AlignedSplit, PartsBlocksOfHalfANodeBetweenNodes) {
+  EXPECT_EQ(aligned_split(0, 2, 3), 2u);
+  EXPECT_EQ(aligned_split(2, 2, 3), 1u);
+  EXPECT_EQ(aligned_split(0, 32, 7), 4u);  // 8 of them are a node of 256 slots, 2 one of 64
+  EXPECT_EQ(aligned_split(0, 2, 2), 1u);
+  EXPECT_EQ(aligned_split(0, 1, 3), 1u) << "whole blocks are all alike within a node";
 }
 
 TEST(ChartOrder, IsAPermutationWhateverTheInputsOrder) {
@@ -73,6 +87,18 @@ TEST(ChartOrder, PutsSeparateClustersIntoSeparateSubtrees) {
   for (const ChartOrder kind : {ChartOrder::median, ChartOrder::hilbert}) {
     const std::vector<uint32_t> charts = order(centers, 0, kind);
     for (uint32_t i = 0; i < 64; ++i) EXPECT_EQ(charts[i] % 4, charts[i / 16 * 16] % 4);
+  }
+}
+
+TEST(ChartOrder, PutsNeighboursIntoOneNodeWhereBlocksAreHalfOfOne) {
+  for (const uint32_t pairs : {1u, 2u, 3u, 7u, 50u}) {
+    std::vector<ChartCenter> centers;
+    for (uint32_t i = 0; i < 2 * pairs; ++i) {
+      const float jitter = i < pairs ? 0.0f : 0.01f;
+      centers.push_back({{std::sin(float(i % pairs)) * 100 + jitter, float(i % pairs) * 10, 0}, i});
+    }
+    const std::vector<uint32_t> charts = order(centers, 0, ChartOrder::median, 8);
+    for (uint32_t i = 0; i < 2 * pairs; i += 2) EXPECT_EQ(charts[i] % pairs, charts[i + 1] % pairs) << pairs;
   }
 }
 

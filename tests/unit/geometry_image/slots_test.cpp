@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <set>
 
 #include "expect_error.h"
@@ -54,16 +56,60 @@ TEST(QuadOrder, PutsTheSquaresOfALongChartInARow) {
   EXPECT_EQ(QuadOrder(grid_chart(16, 1)).slot(11, 0), 11u);
 }
 
+// Whatever the shape, 4^j slots that start at a multiple of 4^j are a rectangle, and a square within the
+// squares that the block is a row of.
+TEST(QuadOrder, MakesEveryNodeARectangle) {
+  for (uint32_t a = 0; a < 7; ++a) {
+    for (uint32_t b = 0; b < 7; ++b) {
+      const QuadOrder order(grid_chart(1u << a, 1u << b));
+      const uint32_t slots = 1u << (a + b), square = 1u << (2 * std::min(a, b));
+      for (uint32_t node = 1; node <= slots; node *= 4) {
+        for (uint32_t first = 0; first < slots; first += node) {
+          glm::uvec2 lo(~0u), hi(0);
+          for (uint32_t slot = first; slot < first + node; ++slot) {
+            const QuadOrder::Quad quad = order.quad(slot);
+            lo = glm::min(lo, glm::uvec2(quad.x, quad.y));
+            hi = glm::max(hi, glm::uvec2(quad.x, quad.y) + 1u);
+          }
+          ASSERT_EQ((hi.x - lo.x) * (hi.y - lo.y), node);
+          ASSERT_TRUE(node > square || hi.x - lo.x == hi.y - lo.y);
+        }
+      }
+    }
+  }
+}
+
+TEST(QuadOrder, WastesNothingOnSidesOfAPowerOf2) {
+  for (uint32_t a = 0; a < 12; ++a) {
+    for (uint32_t b = 0; b < 12; ++b) {
+      EXPECT_EQ(QuadOrder::block_slots(grid_chart(1u << a, 1u << b)), uint64_t(1) << (a + b));
+    }
+  }
+}
+
+TEST(QuadOrder, NeedsLessThanFourSlotsAQuad) {
+  for (uint32_t width = 1; width < 70; ++width) {
+    for (uint32_t height = 1; height < 70; ++height) {
+      EXPECT_LT(QuadOrder::block_slots(grid_chart(width, height)), uint64_t(4) * width * height);
+    }
+  }
+}
+
 TEST(QuadOrder, WastesLittleOnThinCharts) {
   for (const auto& [width, height] : {std::pair(1000u, 3u), std::pair(3u, 1000u), std::pair(5000u, 1u)}) {
-    EXPECT_LT(double(QuadOrder::block_slots(grid_chart(width, height))), 3.3 * width * height);
+    EXPECT_LT(double(QuadOrder::block_slots(grid_chart(width, height))), 1.7 * width * height);
   }
   EXPECT_EQ(QuadOrder::block_slots(grid_chart(1000, 3)), 4096u);  // 1.4 slots a quad
   EXPECT_EQ(QuadOrder::block_slots(grid_chart(4095, 4095)), uint64_t(1) << 24);
   EXPECT_EQ(QuadOrder::block_slots(grid_chart(1, 1)), 1u);
 }
 
-TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
+// The lowest power of 4 that is no less.
+uint64_t node_of(uint64_t slots) {
+  return uint64_t(1) << (std::bit_width(slots - 1) + 1) / 2 * 2;
+}
+
+TEST(Slots, PutLargeNodesFirstAndLeaveNoGap) {
   std::vector<layout::ChartRecord> charts;
   for (uint32_t i = 0; i < 40; ++i) charts.push_back(grid_chart(1 + (i * 7) % 13, 1 + (i * 5) % 9));
   const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
@@ -78,10 +124,38 @@ TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
       taken[chart.first_slot + s] = true;
     }
     for (const layout::ChartRecord& other : charts) {
-      EXPECT_TRUE(other.slot_count <= chart.slot_count || other.first_slot < chart.first_slot);
+      EXPECT_TRUE(node_of(other.slot_count) <= node_of(chart.slot_count) ||
+                  other.first_slot < chart.first_slot);
     }
   }
   EXPECT_EQ(std::count(taken.begin(), taken.end(), false), 0);
+}
+
+TEST(Slots, LetNeighboursShareANodeWhereTheyAreHalfOfOne) {
+  // Three pairs far from each other and from the squares, one of which is beside each pair.
+  std::vector<layout::ChartRecord> charts;
+  std::vector<glm::vec3> centers;
+  for (uint32_t i = 0; i < 9; ++i) {
+    charts.push_back(i < 6 ? grid_chart(i % 2 == 0 ? 8 : 4, i % 2 == 0 ? 4 : 8) : grid_chart(8, 8));
+    centers.emplace_back(100.0f * float(i % 3), float(i), 0);
+  }
+  EXPECT_EQ(assign_slots(charts, centers, ChartOrder::median, "test"), 6 * 32 + 3 * 64u);
+  for (uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(charts[i].first_slot / 64, charts[i + 3].first_slot / 64);
+    EXPECT_NE(charts[i].first_slot, charts[i + 3].first_slot);
+  }
+  // Nodes stand in one order, whether they are one chart or two.
+  EXPECT_EQ(charts[0].first_slot / 128, charts[6].first_slot / 128);
+}
+
+TEST(Slots, PutTheHalfNodeThatIsLeftOverBehindTheOthersOfItsSize) {
+  std::vector<layout::ChartRecord> charts = {grid_chart(1, 1), grid_chart(4, 2), grid_chart(2, 2),
+                                             grid_chart(2, 4), grid_chart(4, 4), grid_chart(2, 4)};
+  const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
+  EXPECT_EQ(assign_slots(charts, centers, ChartOrder::median, "test"), 16 + 3 * 8 + 4 + 1u);
+  EXPECT_EQ(charts[5].first_slot, 32u);
+  EXPECT_EQ(charts[2].first_slot, 40u);
+  EXPECT_EQ(charts[0].first_slot, 44u);
 }
 
 TEST(Slots, EndWhereTheDeepestTreeEnds) {
@@ -95,7 +169,7 @@ TEST(Slots, EndWhereTheDeepestTreeEnds) {
       },
       ExitCode::bad_input, "test", "268435457 leaf slots for 2 charts, and 268435456 is the most");
   charts = {grid_chart((1u << 14) + 1, 4)};
-  EXPECT_EQ(assign_slots(charts, {}, ChartOrder::median, "test"), uint64_t(1) << 18);
+  EXPECT_EQ(assign_slots(charts, {}, ChartOrder::median, "test"), uint64_t(1) << 17);
 }
 
 TEST(TreeDepth, IsTheLowestThatSuffices) {
