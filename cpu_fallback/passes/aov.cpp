@@ -13,10 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
-template <class Probe>
-class Aov : public SurfaceKernel<Probe> {
+template <class Probe, uint32_t source_count>
+class Aov : public SurfaceKernel<Probe, source_count> {
  public:
-  using SurfaceKernel<Probe>::SurfaceKernel;
+  using SurfaceKernel<Probe, source_count>::SurfaceKernel;
 
   HWY_ATTR void operator()() {
     const uvec1 index = this->own_index();
@@ -35,7 +35,7 @@ class Aov : public SurfaceKernel<Probe> {
         const uvec4 normal = as_bits(surface.normal, 0u);
         first = select(this->active(), uvec4(hit.x, normal.x, normal.y, normal.z), first);
         second = select(this->active(), as_bits(surface.albedo, 0u), second);
-        const uvec1 triangle = part.first_mesh_triangle + (point.triangle - part.first_triangle);
+        const uvec1 triangle = part.first_mesh_triangle + (point.source[0].triangle - part.first_triangle);
         third = select(this->active(),
                        uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y),
                              part.mesh, triangle),
@@ -55,7 +55,7 @@ class Aov : public SurfaceKernel<Probe> {
   RayPush push_ = this->template push<RayPush>();
 };
 
-LODESTONE_VARYING_BLOCK_FUNCTION(aov, Aov)
+LODESTONE_SURFACE_BLOCK_FUNCTION(aov, Aov)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

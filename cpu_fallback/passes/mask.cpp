@@ -13,10 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
-template <class Probe>
-class Mask : public SurfaceKernel<Probe> {
+template <class Probe, uint32_t source_count>
+class Mask : public SurfaceKernel<Probe, source_count> {
  public:
-  using SurfaceKernel<Probe>::SurfaceKernel;
+  using SurfaceKernel<Probe, source_count>::SurfaceKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits);
@@ -52,7 +52,7 @@ class Mask : public SurfaceKernel<Probe> {
   Words pending_ = this->words(18);
 };
 
-LODESTONE_VARYING_BLOCK_FUNCTION(mask, Mask)
+LODESTONE_SURFACE_BLOCK_FUNCTION(mask, Mask)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

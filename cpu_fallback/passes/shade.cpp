@@ -13,10 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
-template <class Probe>
-class Shade : public SurfaceKernel<Probe> {
+template <class Probe, uint32_t source_count>
+class Shade : public SurfaceKernel<Probe, source_count> {
  public:
-  using SurfaceKernel<Probe>::SurfaceKernel;
+  using SurfaceKernel<Probe, source_count>::SurfaceKernel;
 
   HWY_ATTR void operator()() {
     const uvec1 index = this->own_index();
@@ -73,7 +73,7 @@ class Shade : public SurfaceKernel<Probe> {
   RayPush push_ = this->template push<RayPush>();
 };
 
-LODESTONE_VARYING_BLOCK_FUNCTION(shade, Shade)
+LODESTONE_SURFACE_BLOCK_FUNCTION(shade, Shade)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

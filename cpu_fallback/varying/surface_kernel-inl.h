@@ -31,7 +31,8 @@ HWY_ATTR inline Surface select(bvec1 condition, const Surface& yes, const Surfac
   return s;
 }
 
-template <class Probe>
+// `source_count` is `sources` of that header, at compile time as in the kernels.
+template <class Probe, uint32_t source_count>
 class SurfaceKernel : public VaryingKernel<Probe> {
  public:
   using VaryingKernel<Probe>::VaryingKernel;
@@ -49,6 +50,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Structs<TextureRecord> textures = this->template structs<TextureRecord>(14);
   Structs<FrameRecord> frames = this->template structs<FrameRecord>(15);
 
+  static constexpr uint32_t sources = source_count;
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)
 #define LOAD1(result, buffer, i) result = this->load(buffer, i)
 #define WHERE(condition) if (const Where here(*this, condition); here.any())
@@ -76,6 +78,21 @@ class SurfaceKernel : public VaryingKernel<Probe> {
     });
   }
 };
+
+// Defines NAME_block, a BlockFunction (kernel.h), for the pass template PASS. The dispatch's first constant
+// is the second argument of the template: 1 or 3.
+#define LODESTONE_SURFACE_BLOCK_FUNCTION(NAME, PASS)                                                 \
+  template <class Probe>                                                                             \
+  using PASS##OfOne = PASS<Probe, 1>;                                                                \
+  template <class Probe>                                                                             \
+  using PASS##OfThree = PASS<Probe, 3>;                                                              \
+  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_one, PASS##OfOne)                                       \
+  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_three, PASS##OfThree)                                   \
+  HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,              \
+                             render::Counters* counters) {                                           \
+    (dispatch.constants[0] == 1 ? NAME##_of_one_block : NAME##_of_three_block)(dispatch, begin, end, \
+                                                                               counters);            \
+  }
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

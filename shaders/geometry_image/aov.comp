@@ -36,7 +36,7 @@ void main() {
     first = uvec4(hit.x, as_bits(surface.normal, 0u).xyz);
     second = as_bits(surface.albedo, 0u);
     third = uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y), part.mesh,
-                  part.first_mesh_triangle + (point.triangle - part.first_triangle));
+                  part.first_mesh_triangle + (point.source[0].triangle - part.first_triangle));
   }
   STORE4(aovs, 4u * pixel, first);
   STORE4(aovs, 4u * pixel + 1u, second);

@@ -21,6 +21,8 @@ STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
 
+layout(constant_id = 2) const uint sources = 1u;
+
 #define WHERE(condition) if (condition)
 #define SET(variable, value) variable = value
 #include "layout/surface.h"

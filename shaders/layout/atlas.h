@@ -22,10 +22,12 @@ CONST uint max_depth = 14u;           // 4^14 leaf slots
 CONST uint leaf_flag = 0x80000000u;   // in a hit link: the rest is the texel of the quad's corner a
 CONST uint empty_slot = 0x7fffffffu;  // a leaf slot without a quad
 
-// What kind of triangle a chart's quads stand for.
+// What a chart's quads stand for.
 CONST uint chart_grid = 0u;  // quad (x, y) half h is triangle first_triangle + 2 * (y * (width - 1) + x) + h
 CONST uint chart_exact =
     1u;  // a 3 x 3 chart that is triangle first_triangle: corners, edge midpoints, centroid
+CONST uint chart_mapped =
+    2u;  // a surface resampled: every texel lies in a triangle of its own (first_triangle is 0)
 
 struct ChartRecord {
   uvec1 first_texel;

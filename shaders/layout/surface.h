@@ -2,19 +2,52 @@
 // From a hit to the surface there: which triangle of the input, where on it, which material, which normal.
 // Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
 // those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
-// in both.
+// in both. So does `sources`, the same in the whole dispatch: 3 where the atlas has mapped charts, else 1.
 
-// Where a hit lies on the input.
-struct SurfacePoint {
-  uvec1 texel[3];  // of the corners of the triangle that was hit
-  vec1 weight[3];
-  vec3 corner[3];  // their positions
+// A point of the input, and its share in what is found at a hit.
+struct SurfaceSource {
   uvec1 triangle;  // of the assembly
   vec1 b1;         // barycentrics there
   vec1 b2;
+  vec1 share;
   uvec1 vertex[3];
-  uvec1 part;
 };
+
+// Where a hit lies on the input. On a mapped chart it has three sources, its texels, that with the greatest
+// share first (of equal ones the first texel); on others one, and others of no share where there must be
+// three.
+struct SurfacePoint {
+  uvec1 texel[3];  // of the corners of the triangle that was hit
+  vec1 weight[3];
+  vec3 corner[3];           // their positions
+  SurfaceSource source[3];  // those from `sources` on are not set
+  uvec1 part;               // of the first source
+};
+
+// Its vertices, and returns its part.
+FN uvec1 find_vertices(INOUT(SurfaceSource) source) {
+  uvec4 bits;
+  LOAD4(bits, triangles, source.triangle);
+  source.vertex[0] = bits.x;
+  source.vertex[1] = bits.y;
+  source.vertex[2] = bits.z;
+  return bits.w;
+}
+
+// Before there are vertices.
+FN void put_greater_first(INOUT(SurfaceSource) first, INOUT(SurfaceSource) second) {
+  bvec1 swap = second.share > first.share;
+  uvec1 triangle = first.triangle;
+  vec3 rest = vec3(first.b1, first.b2, first.share);
+  first.triangle = select(swap, second.triangle, first.triangle);
+  first.b1 = select(swap, second.b1, first.b1);
+  first.b2 = select(swap, second.b2, first.b2);
+  first.share = select(swap, second.share, first.share);
+  second.triangle = select(swap, triangle, second.triangle);
+  second.b1 = select(swap, rest.x, second.b1);
+  second.b2 = select(swap, rest.y, second.b2);
+  second.share = select(swap, rest.z, second.share);
+}
 
 FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v) {
   SurfacePoint point;
@@ -38,44 +71,72 @@ FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v) {
     point.corner[i] = as_vec3(bits);
   }
   // On a grid the place in the chart says which triangle it is, else the texel map.
-  point.triangle = chart.first_triangle;
-  point.b1 = u;
-  point.b2 = v;
+  point.source[0].triangle = chart.first_triangle;
+  point.source[0].b1 = u;
+  point.source[0].b2 = v;
+  point.source[0].share = 1.0f;
   WHERE(chart.kind == chart_grid) {
     uvec1 place = texel - chart.first_texel;
     uvec1 row = place / chart.width;
-    SET(point.triangle, chart.first_triangle + 2u * (place - row) + (primitive & 1u));
+    SET(point.source[0].triangle, chart.first_triangle + 2u * (place - row) + (primitive & 1u));
   }
-  WHERE(chart.kind != chart_grid) {
+  WHERE(chart.kind == chart_exact) {
     uvec4 s0;
     uvec4 s1;
     uvec4 s2;
     LOAD4(s0, texel_map, point.texel[0]);
     LOAD4(s1, texel_map, point.texel[1]);
     LOAD4(s2, texel_map, point.texel[2]);
-    SET(point.triangle, s0.x);
-    SET(point.b1,
+    SET(point.source[0].triangle, s0.x);
+    SET(point.source[0].b1,
         uintBitsToFloat(s0.y) * point.weight[0] + uintBitsToFloat(s1.y) * u + uintBitsToFloat(s2.y) * v);
-    SET(point.b2,
+    SET(point.source[0].b2,
         uintBitsToFloat(s0.z) * point.weight[0] + uintBitsToFloat(s1.z) * u + uintBitsToFloat(s2.z) * v);
   }
-  LOAD4(bits, triangles, point.triangle);
-  point.vertex[0] = bits.x;
-  point.vertex[1] = bits.y;
-  point.vertex[2] = bits.z;
-  point.part = bits.w;
+  if (sources != 1u) {
+    for (int i = 1; i < 3; ++i) {
+      point.source[i].triangle = point.source[0].triangle;
+      point.source[i].b1 = point.source[0].b1;
+      point.source[i].b2 = point.source[0].b2;
+      point.source[i].share = 0.0f;
+    }
+    WHERE(chart.kind == chart_mapped) {
+      for (int i = 0; i < 3; ++i) {
+        LOAD4(bits, texel_map, point.texel[i]);
+        SET(point.source[i].triangle, bits.x);
+        SET(point.source[i].b1, uintBitsToFloat(bits.y));
+        SET(point.source[i].b2, uintBitsToFloat(bits.z));
+        SET(point.source[i].share, point.weight[i]);
+      }
+    }
+    put_greater_first(point.source[0], point.source[1]);
+    put_greater_first(point.source[0], point.source[2]);
+  }
+  point.part = find_vertices(point.source[0]);
+  for (uint k = 1u; k < sources; ++k) find_vertices(point.source[k]);
   return point;
 }
 
-// Both sets of texture coordinates at the point.
-FN vec4 texcoords_at(IN(SurfacePoint) point) {
+// Exactly the sum where the share is 0, also where that or the value is no finite number or -0.
+FN vec4 add_share(vec4 sum, vec4 value, vec1 share) {
+  return select(share == 0.0f, sum, sum + value * share);
+}
+
+// Both sets of texture coordinates.
+FN vec4 texcoords_of(IN(SurfaceSource) source) {
   uvec4 t0;
   uvec4 t1;
   uvec4 t2;
-  LOAD4(t0, texcoords, point.vertex[0]);
-  LOAD4(t1, texcoords, point.vertex[1]);
-  LOAD4(t2, texcoords, point.vertex[2]);
-  return as_vec4(t0) * (1.0f - point.b1 - point.b2) + as_vec4(t1) * point.b1 + as_vec4(t2) * point.b2;
+  LOAD4(t0, texcoords, source.vertex[0]);
+  LOAD4(t1, texcoords, source.vertex[1]);
+  LOAD4(t2, texcoords, source.vertex[2]);
+  return as_vec4(t0) * (1.0f - source.b1 - source.b2) + as_vec4(t1) * source.b1 + as_vec4(t2) * source.b2;
+}
+FN vec4 texcoords_at(IN(SurfacePoint) point) {
+  vec4 sum = texcoords_of(point.source[0]) * point.source[0].share;
+  for (uint k = 1u; k < sources; ++k)
+    sum = add_share(sum, texcoords_of(point.source[k]), point.source[k].share);
+  return sum;
 }
 
 // A texel as stored; `decode`: colours from sRGB to linear by the table.
@@ -106,36 +167,59 @@ FN vec4 sample_texture(uint index, vec4 uvs, bool decode) {
   return top * (1.0f - y.weight) + bottom * y.weight;
 }
 
+FN vec4 vertex_color_of(IN(SurfaceSource) source) {
+  uvec4 n0;
+  uvec4 n1;
+  uvec4 n2;
+  LOAD4(n0, normals, source.vertex[0]);
+  LOAD4(n1, normals, source.vertex[1]);
+  LOAD4(n2, normals, source.vertex[2]);
+  return unpack_vertex_color(n0.w) * (1.0f - source.b1 - source.b2) + unpack_vertex_color(n1.w) * source.b1 +
+         unpack_vertex_color(n2.w) * source.b2;
+}
+FN vec4 vertex_color_at(IN(SurfacePoint) point) {
+  vec4 sum = vertex_color_of(point.source[0]) * point.source[0].share;
+  for (uint k = 1u; k < sources; ++k)
+    sum = add_share(sum, vertex_color_of(point.source[k]), point.source[k].share);
+  return sum;
+}
+
 // Base colour and alpha: factor, texture, vertex colour.
 FN vec4 base_color_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec4 uvs) {
   vec4 color = material.base_color;
   if (material.base_color_texture != no_index)
     color = color * sample_texture(material.base_color_texture, uvs, true);
-  uvec4 n0;
-  uvec4 n1;
-  uvec4 n2;
-  LOAD4(n0, normals, point.vertex[0]);
-  LOAD4(n1, normals, point.vertex[1]);
-  LOAD4(n2, normals, point.vertex[2]);
-  return color * (unpack_vertex_color(n0.w) * (1.0f - point.b1 - point.b2) +
-                  unpack_vertex_color(n1.w) * point.b1 + unpack_vertex_color(n2.w) * point.b2);
+  return color * vertex_color_at(point);
 }
 
-// Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set`, on
-// the side of `normal`.
-FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
+// The mesh's own tangent and the bitangent sign of the first vertex.
+FN vec4 tangent_of(IN(SurfaceSource) source) {
   uvec4 t0;
   uvec4 t1;
   uvec4 t2;
-  LOAD4(t0, tangents, point.vertex[0]);
-  LOAD4(t1, tangents, point.vertex[1]);
-  LOAD4(t2, tangents, point.vertex[2]);
-  vec3 own = as_vec3(t0) * (1.0f - point.b1 - point.b2) + as_vec3(t1) * point.b1 + as_vec3(t2) * point.b2;
-  vec4 tangent = vec4(own.x, own.y, own.z, uintBitsToFloat(t0.w));
+  LOAD4(t0, tangents, source.vertex[0]);
+  LOAD4(t1, tangents, source.vertex[1]);
+  LOAD4(t2, tangents, source.vertex[2]);
+  vec3 own = as_vec3(t0) * (1.0f - source.b1 - source.b2) + as_vec3(t1) * source.b1 + as_vec3(t2) * source.b2;
+  return vec4(own.x, own.y, own.z, uintBitsToFloat(t0.w));
+}
+
+// Tangent and bitangent sign at the point: the mesh's own, else along u of texture coordinate set `set` in
+// the first source's triangle, on the side of `normal`.
+FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
+  vec4 first = tangent_of(point.source[0]);
+  vec4 sum = first * point.source[0].share;
+  for (uint k = 1u; k < sources; ++k)
+    sum = add_share(sum, tangent_of(point.source[k]), point.source[k].share);
+  vec3 own = vec3(sum.x, sum.y, sum.z);
+  vec4 tangent = vec4(own.x, own.y, own.z, first.w);
   WHERE(!(dot3(own, own) > 1e-12f)) {
-    LOAD4(t0, texcoords, point.vertex[0]);
-    LOAD4(t1, texcoords, point.vertex[1]);
-    LOAD4(t2, texcoords, point.vertex[2]);
+    uvec4 t0;
+    uvec4 t1;
+    uvec4 t2;
+    LOAD4(t0, texcoords, point.source[0].vertex[0]);
+    LOAD4(t1, texcoords, point.source[0].vertex[1]);
+    LOAD4(t2, texcoords, point.source[0].vertex[2]);
     vec4 d1 = as_vec4(t1) - as_vec4(t0);
     vec4 d2 = as_vec4(t2) - as_vec4(t0);
     vec2 uv1 = set == 0u ? vec2(d1.x, d1.y) : vec2(d1.z, d1.w);
@@ -143,9 +227,9 @@ FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
     uvec4 p0;
     uvec4 p1;
     uvec4 p2;
-    LOAD4(p0, positions, point.vertex[0]);
-    LOAD4(p1, positions, point.vertex[1]);
-    LOAD4(p2, positions, point.vertex[2]);
+    LOAD4(p0, positions, point.source[0].vertex[0]);
+    LOAD4(p1, positions, point.source[0].vertex[1]);
+    LOAD4(p2, positions, point.source[0].vertex[2]);
     vec3 e1 = as_vec3(p1) - as_vec3(p0);
     vec3 e2 = as_vec3(p2) - as_vec3(p0);
     vec1 area = uv1.x * uv2.y - uv1.y * uv2.x;

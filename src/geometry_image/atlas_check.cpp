@@ -13,11 +13,12 @@ namespace lodestone::geometry_image {
 namespace {
 
 const char* chart_fault(const Atlas& atlas, const layout::ChartRecord& chart, uint64_t first_texel) {
-  if (chart.kind != layout::chart_grid && chart.kind != layout::chart_exact)
-    return "a chart of an unknown kind";
+  if (chart.kind > layout::chart_mapped) return "a chart of an unknown kind";
   if (chart.width < 2 || chart.height < 2) return "a chart without a quad";
   if (chart.kind == layout::chart_exact && (chart.width != 3 || chart.height != 3))
     return "an exact chart not of 3 x 3";
+  if (chart.kind == layout::chart_mapped && chart.first_triangle != 0)
+    return "a mapped chart with a triangle of its own";
   if (chart.first_texel != first_texel || texel_count(chart) > atlas.texel_map.size() - first_texel) {
     return "charts that do not follow one another";
   }
@@ -42,11 +43,14 @@ const char* charts_fault(const Atlas& atlas) {
   return nullptr;
 }
 
-bool is_good_texel(const glm::uvec4& texel, const layout::ChartRecord& chart, uint32_t index) {
-  if (texel == glm::uvec4(0)) return true;
+bool is_good_texel(const glm::uvec4& texel, const Atlas& atlas, uint32_t index) {
+  const layout::ChartRecord& chart = atlas.charts[index];
+  const bool mapped = chart.kind == layout::chart_mapped;
+  if (texel == glm::uvec4(0)) return !mapped;
+  const uint64_t triangles = mapped ? atlas.report.triangles : triangle_count(chart);
   const float b1 = std::bit_cast<float>(texel.y), b2 = std::bit_cast<float>(texel.z);
-  return texel.x >= chart.first_triangle && texel.x - chart.first_triangle < triangle_count(chart) &&
-         b1 >= 0 && b2 >= 0 && b1 + b2 <= 1 && texel.w == index + 1;
+  return texel.x >= chart.first_triangle && texel.x - chart.first_triangle < triangles && b1 >= 0 &&
+         b2 >= 0 && b1 + b2 <= 1 && texel.w == index + 1;
 }
 
 // Whether the quad's four corners are texels.
@@ -66,7 +70,7 @@ ChartFindings inspect(const Atlas& atlas, uint32_t index) {
   ChartFindings found;
   for (uint64_t i = 0; i < texel_count(chart); ++i) {
     found.texels_good =
-        found.texels_good && is_good_texel(atlas.texel_map[chart.first_texel + i], chart, index);
+        found.texels_good && is_good_texel(atlas.texel_map[chart.first_texel + i], atlas, index);
   }
   const QuadOrder order(chart);
   for (uint32_t slot = 0; slot < chart.slot_count; ++slot) {

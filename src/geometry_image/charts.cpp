@@ -136,9 +136,12 @@ std::vector<layout::ChartRecord> make_charts(const scene::Scene& scene, const sc
 }
 
 AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts) {
-  const auto is_grid = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_grid; };
-  if (std::all_of(charts.begin(), charts.end(), is_grid)) return AtlasKind::grid;
-  return std::any_of(charts.begin(), charts.end(), is_grid) ? AtlasKind::automatic : AtlasKind::exact;
+  const auto all = [&](uint32_t kind) {
+    return std::all_of(charts.begin(), charts.end(),
+                       [kind](const layout::ChartRecord& chart) { return chart.kind == kind; });
+  };
+  if (all(layout::chart_grid)) return AtlasKind::grid;
+  return all(layout::chart_exact) ? AtlasKind::exact : AtlasKind::automatic;
 }
 
 glm::uvec4 texel_entry(const layout::ChartRecord& chart, uint32_t chart_index, uint32_t x, uint32_t y) {

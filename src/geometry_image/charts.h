@@ -28,18 +28,20 @@ inline uint64_t texel_count(const layout::ChartRecord& chart) {
 inline uint64_t quad_count(const layout::ChartRecord& chart) {
   return uint64_t(chart.width - 1) * (chart.height - 1);
 }
-// Input triangles that a chart stands for.
+// Input triangles that a chart stands for, one after the other from its first; none is its own where each
+// texel says which it samples.
 inline uint64_t triangle_count(const layout::ChartRecord& chart) {
+  if (chart.kind == layout::chart_mapped) return 0;
   return chart.kind == layout::chart_exact ? 1 : 2 * quad_count(chart);
 }
 
-// What the charts are: all grid, all exact, or automatic: some of each.
+// What the charts are: all grid, all exact, or automatic: anything else.
 AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts);
 
-// Entry of the texel map for sample (x, y) of a chart.
+// Entry of the texel map for sample (x, y) of a grid or exact chart.
 glm::uvec4 texel_entry(const layout::ChartRecord& chart, uint32_t chart_index, uint32_t x, uint32_t y);
 
-// The whole texel map. Charts must follow one another without gaps.
+// The whole texel map of such charts. They must follow one another without gaps.
 std::vector<glm::uvec4> make_texel_map(const std::vector<layout::ChartRecord>& charts);
 
 }  // namespace lodestone::geometry_image

@@ -255,7 +255,7 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool 
   if (!tables.has_masks) return true;
   do {
     run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), pending.id()}),
-        layout::CountPush{count}, count);
+        layout::CountPush{count}, count, {tables.sources});
     if (take_pending() == 0) return true;
   } while (trace(rays, count, false, steps, interrupted));
   return false;
@@ -269,7 +269,7 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t 
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, false, true, interrupted)) return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
-        count);
+        count, {tables.sources});
   }
   for (uint32_t sample = 0; sample < settings.spp; ++sample) {
     layout::RayPush push{first_ray, count, sample, settings.spp == 1 ? 1u : 0u, 0, sample == 0 ? 1u : 0u};
@@ -280,7 +280,7 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t 
       run(passes::shade,
           surface_buffers(
               primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
-          push, count);
+          push, count, {tables.sources});
       if (!trace_masked(shadow, count, true, false, interrupted)) return false;
       run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
           count);

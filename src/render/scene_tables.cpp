@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/render/scene_tables.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lodestone/layout/frame.h"
@@ -146,6 +147,8 @@ SceneTables::SceneTables(Backend& backend, const scene::Scene& scene, const scen
   texel_map = make_buffer(backend, "texel_map", 16, atlas.texel_map);
   leaf_map = make_buffer(backend, "leaf_map", 4, atlas.leaf_map);
   charts = make_buffer(backend, "charts", 16, atlas.charts);
+  const auto is_mapped = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_mapped; };
+  if (std::any_of(atlas.charts.begin(), atlas.charts.end(), is_mapped)) sources = 3;
   upload_shading(*this, backend, scene, assembly);
 }
 

@@ -21,6 +21,7 @@ struct SceneTables {
   // Shading.
   Buffer texcoords, parts, materials, textures, images, srgb_table;
   bool has_masks = false;  // some material cuts out texels
+  uint32_t sources = 1;    // layout/surface.h
 };
 
 // Buffers of `name` filled with an array; arrays may be empty.
