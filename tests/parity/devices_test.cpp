@@ -5,6 +5,7 @@
 
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/devices.h"
+#include "lodestone/test_support/mapped_charts.h"
 #include "lodestone/test_support/ready_scene.h"
 #include "lodestone/test_support/small_scenes.h"
 
@@ -66,6 +67,17 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnTerrainByLinks) {
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnAnExactAtlas) {
   expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact), GetParam(), small_settings());
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuOnMappedChartsAndBesideThem) {
+  ReadyScene spheres("builtin:spheres"), head("builtin:head");
+  map_grids(spheres.atlas);
+  expect_equal(spheres, GetParam(), small_settings());
+  map_grids(head.atlas, 2);
+  expect_equal(head, GetParam(), small_settings());
+  for (const bool tangents : {true, false})
+    expect_equal(straddled_squares({.tangents = tangents, .cut_out = tangents}), GetParam(),
+                 small_settings());
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnMorphsSkinsAndTextures) {

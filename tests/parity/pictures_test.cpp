@@ -6,6 +6,8 @@
 #include "lodestone/base/error.h"
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/devices.h"
+#include "lodestone/test_support/mapped_charts.h"
+#include "lodestone/test_support/picture.h"
 #include "lodestone/test_support/ready_scene.h"
 #include "lodestone/test_support/small_scenes.h"
 
@@ -17,19 +19,6 @@ render::Settings settings_of(uint32_t size) {
   settings.width = settings.height = size;
   settings.aovs = {"depth", "normal", "albedo", "uv", "id"};
   return settings;
-}
-
-image::Image picture(render::Backend& backend, const ReadyScene& ready, float time,
-                     const render::Settings& settings) {
-  render::Renderer renderer(backend, ready.scene, ready.assembly, ready.atlas, settings);
-  const scene::Pose pose = ready.pose(time);
-  const auto bounds = scene::pose_bounds(ready.scene, pose);
-  const auto view = render::find_view(ready.scene, pose, "", bounds, settings.width, settings.height);
-  return renderer.render(pose, view)->linear;
-}
-
-float value(const image::Image& image, const char* channel, uint32_t x, uint32_t y) {
-  return image.find(channel)->values[size_t(y) * image.width + x];
 }
 
 scene::Material colored(const glm::vec3& color, float alpha = 1, bool mask = false) {
@@ -180,10 +169,9 @@ INSTANTIATE_TEST_SUITE_P(, Pictures, testing::ValuesIn(device_names()),
 
 // Every pass of the CPU that is compiled once a vector width, by what comes out in the end.
 TEST(VectorWidths, GiveTheSamePictures) {
-  std::vector<std::string> scenes = {"builtin:tiny"};
-  if (const auto file = data_file("RobotExpressive.glb")) scenes.push_back(*file);
-  for (const std::string& name : scenes) {
-    const ReadyScene ready(name);
+  std::vector<ReadyScene> scenes = {ReadyScene("builtin:tiny"), straddled_squares()};
+  if (const auto file = data_file("RobotExpressive.glb")) scenes.emplace_back(*file);
+  for (const ReadyScene& ready : scenes) {
     const auto render = [&] {
       const auto backend = cpu_fallback::make_cpu_backend({});
       return picture(*backend, ready, 0.4f, settings_of(64));

@@ -185,6 +185,33 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
   refuse([](Atlas& a) { a.report.notes = {"\x1b[2J"}; }, "no text");
 }
 
+TEST_F(AtlasFile, IsRefusedWhereItsMappedChartsLeadAstray) {
+  Atlas good = atlas_of(sample_scene());
+  ASSERT_EQ(good.charts[0].kind, layout::chart_grid);
+  good.charts[0].kind = layout::chart_mapped;
+  good.texel_map[3].x = good.texel_map.back().x;  // of another mesh
+  good.kind = AtlasKind::automatic;
+  EXPECT_EQ(find_fault(good), "");
+  expect_equal(unpack_atlas("x.lode", pack_atlas(good, {""}), nullptr), good);
+  const auto fault = [&](const auto& change) {
+    Atlas bad = good;
+    change(bad);
+    return find_fault(bad);
+  };
+  EXPECT_EQ(fault([](Atlas& a) { a.charts[0].kind = 3; }), "a chart of an unknown kind");
+  EXPECT_EQ(fault([](Atlas& a) { a.charts[0].first_triangle = 1; }),
+            "a mapped chart with a triangle of its own");
+  const std::string no_sample = "a texel that samples nothing of its chart";
+  const auto triangles = static_cast<uint32_t>(good.report.triangles);
+  EXPECT_EQ(fault([&](Atlas& a) { a.texel_map[3].x = triangles - 1; }), "");
+  EXPECT_EQ(fault([&](Atlas& a) { a.texel_map[3].x = triangles; }), no_sample);
+  EXPECT_EQ(fault([](Atlas& a) { a.texel_map[3].z = 0x40000000u; }), no_sample);
+  EXPECT_EQ(fault([](Atlas& a) { a.texel_map[3].w = 2; }), no_sample);
+  EXPECT_EQ(fault([](Atlas& a) { a.texel_map[3] = glm::uvec4(0); }), no_sample);
+  EXPECT_EQ(fault([](Atlas& a) { a.kind = AtlasKind::grid; }), "charts of another kind than it says");
+  EXPECT_EQ(fault([](Atlas& a) { a.kind = AtlasKind::exact; }), "charts of another kind than it says");
+}
+
 TEST_F(AtlasFile, IsRefusedWhereItsRecordIsNone) {
   const Atlas atlas = atlas_of(sample_scene());
   const auto refuse = [&](const BakeRecord& record, const std::string& because) {
