@@ -39,6 +39,9 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
     charts[chart].slot_count = static_cast<uint32_t>(block);
     next += block;
   };
+  // Half a node of the size before. It starts at a multiple of its own size behind an even number of nodes of
+  // this size; these then begin with a whole node above them.
+  uint32_t left_over = layout::no_index;
   for (size_t power = whole.size(); power-- > 0;) {
     const uint64_t node = uint64_t(1) << (2 * power);
     std::vector<ChartCenter>& nodes = whole[power];
@@ -48,15 +51,18 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
       nodes.push_back({0.5f * half[i].center + 0.5f * half[i + 1].center, pairs + i});
     }
     order_charts(nodes, next, node, order);
-    for (const ChartCenter& placed : nodes) {
-      if (placed.chart < pairs) {
-        place(placed.chart, node);
+    const size_t even = nodes.size() / 2 * 2;
+    for (size_t i = 0; i <= nodes.size(); ++i) {
+      if (i == even && left_over != layout::no_index) place(left_over, 2 * node);
+      if (i == nodes.size()) break;
+      if (const uint32_t chart = nodes[i].chart; chart < pairs) {
+        place(chart, node);
       } else {
-        place(half[placed.chart - pairs].chart, node / 2);
-        place(half[placed.chart - pairs + 1].chart, node / 2);
+        place(half[chart - pairs].chart, node / 2);
+        place(half[chart - pairs + 1].chart, node / 2);
       }
     }
-    if (half.size() % 2 != 0) place(half.back().chart, node / 2);
+    left_over = half.size() % 2 != 0 ? half.back().chart : layout::no_index;
   }
   return slots;
 }

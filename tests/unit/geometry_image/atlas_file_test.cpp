@@ -176,7 +176,7 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
   refuse([](Atlas& a) { a.texel_map[3].w = 2; }, "samples nothing");
   refuse([](Atlas& a) { a.texel_map[3] = glm::uvec4(0); }, "a leaf that is not");
   refuse([](Atlas& a) { a.leaf_map[0].x = 1u << 20; }, "a leaf that is not");
-  refuse([](Atlas& a) { a.leaf_map[0].y = 3; }, "a leaf that is not");
+  refuse([](Atlas& a) { ++a.leaf_map[0].y; }, "a leaf that is not");
   refuse([](Atlas& a) { a.leaf_map[0] = {layout::empty_slot, 0}; }, "a leaf that is not");
   refuse([](Atlas& a) { ++a.report.quads; }, "another number of quads");
   refuse([](Atlas& a) { a.report.texels = 3; }, "report of another atlas");

@@ -104,31 +104,28 @@ TEST(QuadOrder, WastesLittleOnThinCharts) {
   EXPECT_EQ(QuadOrder::block_slots(grid_chart(1, 1)), 1u);
 }
 
-// The lowest power of 4 that is no less.
-uint64_t node_of(uint64_t slots) {
-  return uint64_t(1) << (std::bit_width(slots - 1) + 1) / 2 * 2;
-}
-
-TEST(Slots, PutLargeNodesFirstAndLeaveNoGap) {
-  std::vector<layout::ChartRecord> charts;
-  for (uint32_t i = 0; i < 40; ++i) charts.push_back(grid_chart(1 + (i * 7) % 13, 1 + (i * 5) % 9));
-  const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
-  const uint64_t slots = assign_slots(charts, centers, ChartOrder::median, "test");
-  std::vector<bool> taken(slots, false);
-  for (const layout::ChartRecord& chart : charts) {
-    EXPECT_EQ(chart.slot_count, QuadOrder::block_slots(chart));
-    EXPECT_EQ(chart.first_slot % chart.slot_count, 0u);
-    ASSERT_LE(chart.first_slot + chart.slot_count, slots);
-    for (uint32_t s = 0; s < chart.slot_count; ++s) {
-      EXPECT_FALSE(taken[chart.first_slot + s]);
-      taken[chart.first_slot + s] = true;
+TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
+  for (uint32_t count = 1; count < 60; ++count) {
+    std::vector<layout::ChartRecord> charts;
+    for (uint32_t i = 0; i < count; ++i) charts.push_back(grid_chart(1 + (i * 7) % 13, 1 + (i * 5) % 9));
+    const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
+    const uint64_t slots = assign_slots(charts, centers, ChartOrder::median, "test");
+    std::vector<bool> taken(slots, false);
+    for (const layout::ChartRecord& chart : charts) {
+      EXPECT_EQ(chart.slot_count, QuadOrder::block_slots(chart));
+      EXPECT_EQ(chart.first_slot % chart.slot_count, 0u);
+      ASSERT_LE(chart.first_slot + chart.slot_count, slots);
+      for (uint32_t s = 0; s < chart.slot_count; ++s) {
+        EXPECT_FALSE(taken[chart.first_slot + s]);
+        taken[chart.first_slot + s] = true;
+      }
+      // But for one that is half a node and left over.
+      for (const layout::ChartRecord& other : charts) {
+        EXPECT_TRUE(other.slot_count <= 4 * chart.slot_count || other.first_slot < chart.first_slot);
+      }
     }
-    for (const layout::ChartRecord& other : charts) {
-      EXPECT_TRUE(node_of(other.slot_count) <= node_of(chart.slot_count) ||
-                  other.first_slot < chart.first_slot);
-    }
+    EXPECT_EQ(std::count(taken.begin(), taken.end(), false), 0);
   }
-  EXPECT_EQ(std::count(taken.begin(), taken.end(), false), 0);
 }
 
 TEST(Slots, LetNeighboursShareANodeWhereTheyAreHalfOfOne) {
@@ -148,14 +145,17 @@ TEST(Slots, LetNeighboursShareANodeWhereTheyAreHalfOfOne) {
   EXPECT_EQ(charts[0].first_slot / 128, charts[6].first_slot / 128);
 }
 
-TEST(Slots, PutTheHalfNodeThatIsLeftOverBehindTheOthersOfItsSize) {
-  std::vector<layout::ChartRecord> charts = {grid_chart(1, 1), grid_chart(4, 2), grid_chart(2, 2),
-                                             grid_chart(2, 4), grid_chart(4, 4), grid_chart(2, 4)};
-  const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
-  EXPECT_EQ(assign_slots(charts, centers, ChartOrder::median, "test"), 16 + 3 * 8 + 4 + 1u);
-  EXPECT_EQ(charts[5].first_slot, 32u);
-  EXPECT_EQ(charts[2].first_slot, 40u);
-  EXPECT_EQ(charts[0].first_slot, 44u);
+TEST(Slots, PutTheHalfNodeThatIsLeftOverBehindAnEvenNumberOfThoseASizeBelow) {
+  for (uint32_t below = 0; below < 6; ++below) {
+    // One of 16 slots, three of 8, `below` of 4, one of 1.
+    std::vector<layout::ChartRecord> charts = {grid_chart(4, 4), grid_chart(4, 2), grid_chart(2, 4),
+                                               grid_chart(2, 4), grid_chart(1, 1)};
+    charts.insert(charts.end(), below, grid_chart(2, 2));
+    const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
+    EXPECT_EQ(assign_slots(charts, centers, ChartOrder::median, "test"), 16 + 3 * 8 + 4 * below + 1u);
+    EXPECT_EQ(charts[3].first_slot, 32 + below / 2 * 8u);
+    EXPECT_EQ(charts[4].first_slot, 40 + 4 * below);
+  }
 }
 
 TEST(Slots, EndWhereTheDeepestTreeEnds) {
