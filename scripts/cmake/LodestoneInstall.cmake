@@ -8,7 +8,7 @@ get_property(libraries GLOBAL PROPERTY LODESTONE_LIBRARIES)
 install(TARGETS ${libraries} lodestone_options EXPORT lodestoneTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS lodestone RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-foreach(folder src/base src/scene src/mesh src/image src/report src/geometry_image src/render host cpu_fallback shaders/layout)
+foreach(folder src/base src/scene src/mesh src/base_complex src/image src/report src/geometry_image src/render host cpu_fallback shaders/layout)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lodestone FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(DIRECTORY shaders/embed/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lodestone/kernels FILES_MATCHING PATTERN "*.h")

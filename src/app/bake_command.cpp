@@ -5,13 +5,16 @@
 
 #include <memory>
 
+#include "lodestone/app/atlas_text.h"
 #include "lodestone/app/baked_scene.h"
 #include "lodestone/app/common_options.h"
 #include "lodestone/app/output_path.h"
+#include "lodestone/app/stage_clock.h"
 #include "lodestone/app/thread_limit.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 #include "lodestone/geometry_image/atlas.h"
+#include "lodestone/geometry_image/fidelity.h"
 #include "lodestone/scene/assembly.h"
 
 namespace lodestone::app {
@@ -33,12 +36,18 @@ int run_bake(const BakeOptions& options) {
   const ThreadLimit threads(options.threads);
   const scene::Scene scene = load_scene(options.scene);
   const scene::Assembly assembly = scene::assemble(scene);
-  const geometry_image::Atlas atlas = geometry_image::build_atlas(scene, assembly, options.scene.atlas);
+  StageClock clock(options.scene.scene);
+  const geometry_image::Atlas atlas = geometry_image::build_atlas(
+      scene, assembly, options.scene.atlas, [&](const char* stage) { clock.begin(stage); });
+  clock.begin("distance");
+  const geometry_image::Fidelity fidelity =
+      geometry_image::measure_fidelity(scene, assembly, atlas, scene::evaluate(scene, scene::none, 0));
+  clock.end();
   const std::string hash = geometry_image::atlas_hash(scene, assembly, options.scene.atlas);
   geometry_image::save_atlas(output, atlas, record_of(options.scene, output, hash));
   for (const std::string& note : atlas.report.notes) log::note(options.scene.scene + ": " + note);
-  log::note(fmt::format("{}: {} charts, {} quads, {} texels", options.output, atlas.charts.size(),
-                        atlas.report.quads, atlas.report.texels));
+  log::note(fmt::format("{}: {}", options.output, stage_text(clock.stages())));
+  if (log::level() != log::Level::quiet) fmt::print("{}", atlas_text(options.output, atlas, fidelity));
   return int(ExitCode::done);
 }
 

@@ -15,8 +15,6 @@ namespace lodestone::app {
 namespace fs = std::filesystem;
 namespace {
 
-using geometry_image::AtlasKind;
-
 bool is_builtin(const std::string& scene) {
   return scene.starts_with("builtin:");
 }
@@ -45,7 +43,7 @@ BakedScene::BakedScene(const SceneOptions& options) : file_(options.scene) {
   if (options.height_scale != 0)
     fail(ExitCode::usage, "--height", "`{}` was baked with a height of its own; leave the option out", file_);
   atlas_ = geometry_image::load_atlas(file_, &record_);
-  if (options.atlas != AtlasKind::automatic && options.atlas != record_.asked)
+  if (options.atlas != geometry_image::AtlasSettings{} && options.atlas != record_.asked)
     fail(ExitCode::usage, "--atlas", "`{}` was baked with another one; leave the option out or bake it again",
          file_);
   if (record_.scene.empty())

@@ -19,6 +19,20 @@ namespace {
 
 constexpr uint32_t max_spp = 65536;
 constexpr uint32_t max_threads = 4096;
+constexpr uint32_t max_resolution = 32768;  // of all charts together: 2^30 texels
+
+// Throws Error(usage) where options for resampling are given and nothing will be resampled.
+void check_atlas_options(const SceneOptions& options) {
+  using geometry_image::AtlasKind;
+  const geometry_image::AtlasSettings& atlas = options.atlas;
+  if (atlas.kind == AtlasKind::charts || atlas.charts == geometry_image::ChartSettings{}) return;
+  const char* option = atlas.charts.texel_budget != 0                        ? "--resolution"
+                       : atlas.charts.signal != geometry_image::Signal::area ? "--signal"
+                                                                             : "--all-shapes";
+  fail(ExitCode::usage, option,
+       "the atlases grid and exact take their texels from the triangles and have no resolution; use --atlas "
+       "charts, or leave it out");
+}
 
 }  // namespace
 
@@ -52,6 +66,7 @@ void add_scene_argument(CLI::App& app, SceneOptions& options) {
 scene::Scene load_scene(const SceneOptions& options) {
   constexpr std::string_view meshes[] = {".gltf", ".glb", ".obj", ".ply", ".stl"};
   const std::string extension = lower_extension(options.scene);
+  check_atlas_options(options);
   const bool is_mesh = std::find(std::begin(meshes), std::end(meshes), extension) != std::end(meshes);
   if (options.height_scale != 0 && (is_mesh || options.scene.starts_with("builtin:")))
     fail(ExitCode::usage, "--height", "`{}` is no height map; leave the option out", options.scene);
@@ -59,23 +74,40 @@ scene::Scene load_scene(const SceneOptions& options) {
 }
 
 void add_atlas_options(CLI::App& app, SceneOptions& options) {
-  add_value(
-      app, "--atlas", "NAME",
-      "Charts of the geometry image: grid (meshes made of grids), exact (any triangles) or auto (default)",
-      [&](const std::string& text) {
-        parse_choice("--atlas", text, {"auto", "grid", "exact"});
-        options.atlas = text == "grid"    ? geometry_image::AtlasKind::grid
-                        : text == "exact" ? geometry_image::AtlasKind::exact
-                                          : geometry_image::AtlasKind::automatic;
-      });
-  add_value(
-      app, "--resolution", "N", "Texels of a resampled geometry image; `grid` and `exact` take none",
-      [](const std::string& text) {
-        parse_count("--resolution", text, 2, max_side);
-        fail(ExitCode::usage, "--resolution",
-             "the atlases grid and exact take their texels from the triangles and have no resolution; leave "
-             "it out");
-      });
+  using geometry_image::AtlasKind;
+  using geometry_image::Signal;
+  static const std::map<std::string, AtlasKind> kinds = {{"auto", AtlasKind::automatic},
+                                                         {"grid", AtlasKind::grid},
+                                                         {"exact", AtlasKind::exact},
+                                                         {"charts", AtlasKind::charts}};
+  add_value(app, "--atlas", "NAME",
+            "Charts of the geometry image: grid (meshes made of grids), exact (a chart a triangle), charts "
+            "(any mesh, resampled) or auto (default)",
+            [&](const std::string& text) {
+              parse_choice("--atlas", text, {"auto", "grid", "exact", "charts"});
+              options.atlas.kind = kinds.at(text);
+            });
+  CLI::Option* resolution =
+      add_value(app, "--resolution", "N", "Resample to N x N texels in all (with --atlas charts)",
+                [&](const std::string& text) {
+                  const uint64_t side = parse_count("--resolution", text, 2, max_resolution);
+                  options.atlas.charts.texel_budget = side * side;
+                });
+  add_value(app, "--texel-budget", "N",
+            "Resample to N texels in all (with --atlas charts; default: about one a triangle)",
+            [&](const std::string& text) {
+              options.atlas.charts.texel_budget =
+                  parse_count("--texel-budget", text, 4, uint64_t(max_resolution) * max_resolution);
+            })
+      ->excludes(resolution);
+  add_value(app, "--signal", "NAME",
+            "What gets more texels when resampled: area (even spacing, default) or curvature (what bends)",
+            [&](const std::string& text) {
+              parse_choice("--signal", text, {"area", "curvature"});
+              options.atlas.charts.signal = text == "area" ? Signal::area : Signal::curvature;
+            });
+  app.add_flag("--all-shapes", options.atlas.charts.all_shapes,
+               "Resample for what every morph target stretches, not for the rest pose alone");
 }
 
 std::vector<std::string> tracer_names() {

@@ -30,11 +30,12 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 
 struct SceneOptions {
   std::string scene;
-  geometry_image::AtlasKind atlas = geometry_image::AtlasKind::automatic;
+  geometry_image::AtlasSettings atlas;
   float height_scale = 0;
 };
 void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height
-void add_atlas_options(CLI::App& app, SceneOptions& options);   // --atlas --resolution
+void add_atlas_options(CLI::App& app,
+                       SceneOptions& options);  // --atlas --resolution --texel-budget --signal --all-shapes
 // The scene, read. Throws Error(usage) where --height is given and the scene is no height map.
 scene::Scene load_scene(const SceneOptions& options);
 

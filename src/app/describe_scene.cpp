@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "lodestone/app/atlas_text.h"
 #include "lodestone/app/describe.h"
+#include "lodestone/app/stage_clock.h"
 #include "lodestone/geometry_image/atlas.h"
+#include "lodestone/geometry_image/fidelity.h"
 #include "lodestone/scene/assembly.h"
 #include "lodestone/scene/pose.h"
 
@@ -19,6 +22,8 @@ const char* to_string(geometry_image::AtlasKind kind) {
       return "grid";
     case geometry_image::AtlasKind::exact:
       return "exact";
+    case geometry_image::AtlasKind::charts:
+      return "charts";
   }
   return "unknown";
 }
@@ -91,8 +96,18 @@ Json describe_source(const geometry_image::BakeRecord& record) {
   if (record.scene.empty()) return nullptr;
   Json json = {{"scene", record.scene}};
   if (record.height_scale != 0) json["height_scale"] = record.height_scale;
-  json["asked_atlas"] = to_string(record.asked);
+  json["asked_atlas"] = to_string(record.asked.kind);
   return json;
+}
+
+// In units of the diagonal of the input's box, in the rest pose.
+Json describe_distance(const geometry_image::Fidelity& fidelity) {
+  return {{"diagonal", fidelity.diagonal},
+          {"from_input", fidelity.from_input},
+          {"from_geometry_image", fidelity.from_image},
+          {"hausdorff", fidelity.hausdorff()},
+          {"mean", fidelity.mean},
+          {"root_mean_square", fidelity.root_mean_square}};
 }
 
 Json describe_atlas(const geometry_image::Atlas& atlas) {
@@ -109,6 +124,11 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
           {"degenerate_triangles", report.degenerate_triangles},
           {"duplicate_triangles", report.duplicate_triangles},
           {"welded_vertices", report.welded_vertices},
+          {"mapped_triangles", report.mapped_triangles},
+          {"mapped_charts", report.mapped_charts},
+          {"texels_used_percent", texels_used(atlas)},
+          {"stretch_mean", report.mapped_charts > 0 ? Json(report.mean_stretch) : Json(nullptr)},
+          {"stretch_95th_percentile", report.mapped_charts > 0 ? Json(report.high_stretch) : Json(nullptr)},
           {"notes", report.notes}};
 }
 
@@ -117,7 +137,10 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
 Json describe_scene(const SceneOptions& options) {
   const scene::Scene scene = load_scene(options);
   const scene::Assembly assembly = scene::assemble(scene);
-  const geometry_image::Atlas atlas = geometry_image::cached_atlas(scene, assembly, options.atlas);
+  StageClock clock(options.scene);
+  const geometry_image::Atlas atlas = geometry_image::cached_atlas(
+      scene, assembly, options.atlas, nullptr, [&](const char* stage) { clock.begin(stage); });
+  clock.end();
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   return {
       {"scene", options.scene},
@@ -149,7 +172,11 @@ Json describe_scene(const SceneOptions& options) {
                       [](const scene::Image& image) {
                         return Json{{"name", image.name}, {"width", image.width}, {"height", image.height}};
                       })},
-      {"atlas", describe_atlas(atlas)}};
+      {"atlas", describe_atlas(atlas)},
+      {"distance", describe_distance(measure_fidelity(scene, assembly, atlas, rest))},
+      {"stages", list(clock.stages(), [](const report::Stage& stage) {
+         return Json{{"name", stage.name}, {"wall_ms", stage.wall_ms}};
+       })}};
 }
 
 Json describe_baked(const std::string& file) {

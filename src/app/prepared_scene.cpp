@@ -7,6 +7,7 @@
 
 #include "lodestone/app/baked_scene.h"
 #include "lodestone/app/clock.h"
+#include "lodestone/app/stage_clock.h"
 #include "lodestone/base/log.h"
 
 namespace lodestone::app {
@@ -76,7 +77,9 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
   bool cached = false;
   prepared.atlas = timed(prepared.stages, "charts", [&] {
     if (baked) return baked->take_atlas(prepared.scene, prepared.assembly);
-    return geometry_image::cached_atlas(prepared.scene, prepared.assembly, options.atlas, &cached);
+    StageClock clock(options.scene);
+    return geometry_image::cached_atlas(prepared.scene, prepared.assembly, options.atlas, &cached,
+                                        [&](const char* stage) { clock.begin(stage); });
   });
   const geometry_image::AtlasReport& report = prepared.atlas.report;
   log::note(fmt::format("{}: {} triangles, {} charts, {} quads, {} texels{}", options.scene, report.triangles,

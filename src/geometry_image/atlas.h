@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -15,7 +16,26 @@
 
 namespace lodestone::geometry_image {
 
-enum class AtlasKind : uint32_t { automatic, grid, exact };
+enum class AtlasKind : uint32_t { automatic, grid, exact, charts };
+
+// Where a resampled surface gets more texels: spread evenly over its area, or more where it bends.
+enum class Signal : uint32_t { area, curvature };
+
+// How surfaces that have no grid of their own are resampled.
+struct ChartSettings {
+  uint64_t texel_budget = 0;  // for all such surfaces together; 0: about one a triangle
+  Signal signal = Signal::area;
+  bool all_shapes =
+      false;  // what any morph target stretches gets texels for that; else the rest pose decides
+  friend bool operator==(const ChartSettings&, const ChartSettings&) = default;
+};
+
+struct AtlasSettings {
+  AtlasSettings(AtlasKind kind_of_charts = AtlasKind::automatic) : kind(kind_of_charts) {}
+  AtlasKind kind;
+  ChartSettings charts;
+  friend bool operator==(const AtlasSettings&, const AtlasSettings&) = default;
+};
 
 // What was found in the input and what was done about it; printed by `info` and `-v`.
 struct AtlasReport {
@@ -28,23 +48,35 @@ struct AtlasReport {
   uint64_t non_manifold_edges = 0;  // more than two triangles: kept
   uint64_t boundary_edges = 0;      // one triangle
   uint64_t welded_vertices = 0;     // joined to a lower one that is the same point in every pose
-  std::vector<std::string> notes;   // one sentence each
+  uint64_t mapped_triangles = 0;    // represented by resampled charts ...
+  uint64_t mapped_charts = 0;       // ... this many of them
+  uint64_t repeated_texels = 0;     // on borders of mapped charts, where the chart beside them is coarser
+  // L2 stretch of mapped charts in the rest pose, over the area of the surface: 1 where a map is an isometry
+  // up to the mean density of texels.
+  double mean_stretch = 0, high_stretch = 0;  // the mean, and what 95 % of the area keep below
+  std::vector<std::string> notes;             // one sentence each
   bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
 };
 
 struct Atlas {
-  AtlasKind kind = AtlasKind::exact;        // what the charts are; automatic: some of each kind
-  uint32_t depth = 0;                       // the leaves' level: 4^depth >= slot count
-  std::vector<layout::ChartRecord> charts;  // in the order of mesh and triangle; texels ascend with them
-  std::vector<glm::uvec4> texel_map;        // see layout/atlas.h
-  std::vector<glm::uvec2> leaf_map;         // one a slot; the slots end with the last chart's block
+  AtlasKind kind = AtlasKind::exact;  // what the charts are; automatic: some of each kind
+  uint32_t depth = 0;                 // the leaves' level: 4^depth >= slot count
+  // In the order of mesh and triangle, mapped ones behind all others; texels ascend with them.
+  std::vector<layout::ChartRecord> charts;
+  std::vector<glm::uvec4> texel_map;  // see layout/atlas.h
+  std::vector<glm::uvec2> leaf_map;   // one a slot; the slots end with the last chart's block
   AtlasReport report;
 };
 
+// Told the name of each stage of the work as it begins.
+using OnStage = std::function<void(const char*)>;
+
 // `grid` needs every placed mesh to be made of grids (else Error(usage)); `automatic` takes grid where they
-// are, exact for the rest (one atlas can hold charts of both kinds). Throws Error(bad_input) where no
-// triangle is left, a grid is not what scene.h says, or more texels or leaves are needed than there can be.
-Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
+// are, exact for the rest; `charts` resamples everything, and keeps as exact only what it cannot map (one
+// atlas can hold charts of all kinds). Throws Error(bad_input) where no triangle is left, a grid is not what
+// scene.h says, or more texels or leaves are needed than there can be.
+Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                  const OnStage& on_stage = {});
 
 // What an atlas was baked from.
 struct BakeRecord {
@@ -52,8 +84,8 @@ struct BakeRecord {
   // builtin:NAME, or the scene's file as a path relative to the folder of the baked file; empty: not recorded
   // (so in the cache).
   std::string scene{};
-  float height_scale = 0;                  // scene::LoadOptions::height_scale
-  AtlasKind asked = AtlasKind::automatic;  // what build_atlas was given, and the hash with it
+  float height_scale = 0;  // scene::LoadOptions::height_scale
+  AtlasSettings asked{};   // what build_atlas was given, and the hash with it
 };
 
 // Baked files (.lode): header (magic, version, record, sizes), then the arrays zstd-compressed, then a
@@ -65,11 +97,12 @@ void save_atlas(const std::filesystem::path& path, const Atlas& atlas, const Bak
 Atlas load_atlas(const std::filesystem::path& path, BakeRecord* record = nullptr);
 
 // The key of the cache: everything that the atlas is computed from.
-std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind);
+std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly,
+                       const AtlasSettings& settings);
 
 // From the cache folder ($LODESTONE_CACHE, else $XDG_CACHE_HOME/lodestone, else ~/.cache/lodestone) or built
 // and put there; a damaged or unwritable cache costs a note, never the run. `hit`: whether it was there.
-Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind,
-                   bool* hit = nullptr);
+Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                   bool* hit = nullptr, const OnStage& on_stage = {});
 
 }  // namespace lodestone::geometry_image

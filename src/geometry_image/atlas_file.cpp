@@ -2,7 +2,7 @@
 // A .lode file of this tracer, all numbers little-endian:
 //
 //   magic "lodestn" and a control character that text editors do not keep, version, kind of content
-//   record: content hash (text), scene (text), height scale (float), kind of atlas that was asked for
+//   record: content hash (text), scene (text), height scale (float), the settings that were asked for
 //   kind, depth, number of charts, texels and slots, the report
 //   charts, texel map, leaf map: see packed_rows.h
 //   checksum: 32 hexadecimal digits over everything before
@@ -24,7 +24,7 @@ namespace lodestone::geometry_image {
 namespace {
 
 constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
-constexpr uint32_t version = 3;
+constexpr uint32_t version = 4;
 constexpr uint32_t content_atlas = 1;
 constexpr size_t checksum_digits = 32;
 
@@ -45,7 +45,12 @@ constexpr uint64_t AtlasReport::*report_numbers[] = {&AtlasReport::triangles,
                                                      &AtlasReport::duplicate_triangles,
                                                      &AtlasReport::non_manifold_edges,
                                                      &AtlasReport::boundary_edges,
-                                                     &AtlasReport::welded_vertices};
+                                                     &AtlasReport::welded_vertices,
+                                                     &AtlasReport::mapped_triangles,
+                                                     &AtlasReport::mapped_charts,
+                                                     &AtlasReport::repeated_texels};
+
+constexpr double AtlasReport::*report_stretches[] = {&AtlasReport::mean_stretch, &AtlasReport::high_stretch};
 
 std::string checksum(std::span<const std::byte> bytes) {
   ContentHash hash;
@@ -61,9 +66,15 @@ BakeRecord read_record(ByteReader& reader) {
   if (!std::isfinite(record.height_scale) || record.height_scale < 0)
     reader.fail("its height scale is out of range");
   const auto asked = reader.number<uint32_t>();
-  if (asked > static_cast<uint32_t>(AtlasKind::exact))
+  if (asked > static_cast<uint32_t>(AtlasKind::charts))
     reader.fail("it was baked as an atlas of unknown kind");
-  record.asked = static_cast<AtlasKind>(asked);
+  record.asked.kind = static_cast<AtlasKind>(asked);
+  record.asked.charts.texel_budget = reader.number<uint64_t>();
+  const auto signal = reader.number<uint32_t>(), all_shapes = reader.number<uint32_t>();
+  if (signal > static_cast<uint32_t>(Signal::curvature) || all_shapes > 1)
+    reader.fail("it was baked for an unknown signal");
+  record.asked.charts.signal = static_cast<Signal>(signal);
+  record.asked.charts.all_shapes = all_shapes == 1;
   return record;
 }
 
@@ -71,6 +82,10 @@ AtlasReport read_report(ByteReader& reader) {
   AtlasReport report;
   for (uint64_t AtlasReport::*field : report_numbers) report.*field = reader.number<uint64_t>();
   if (report.triangles > max_triangles) reader.fail("it claims too many triangles");
+  for (double AtlasReport::*field : report_stretches) {
+    report.*field = reader.number<double>();
+    if (!std::isfinite(report.*field) || report.*field < 0) reader.fail("its stretch is out of range");
+  }
   const auto notes = reader.number<uint32_t>();
   if (notes > most_notes) reader.fail("it claims too many notes");
   for (uint32_t i = 0; i < notes; ++i) {
@@ -123,13 +138,17 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   writer.text(record.content_hash);
   writer.text(record.scene);
   writer.number(record.height_scale);
-  writer.number(static_cast<uint32_t>(record.asked));
+  writer.number(static_cast<uint32_t>(record.asked.kind));
+  writer.number(record.asked.charts.texel_budget);
+  writer.number(static_cast<uint32_t>(record.asked.charts.signal));
+  writer.number(static_cast<uint32_t>(record.asked.charts.all_shapes));
   writer.number(static_cast<uint32_t>(atlas.kind));
   writer.number(atlas.depth);
   writer.number(static_cast<uint64_t>(atlas.charts.size()));
   writer.number(static_cast<uint64_t>(atlas.texel_map.size()));
   writer.number(static_cast<uint64_t>(atlas.leaf_map.size()));
   for (uint64_t AtlasReport::*field : report_numbers) writer.number(atlas.report.*field);
+  for (double AtlasReport::*field : report_stretches) writer.number(atlas.report.*field);
   writer.number(static_cast<uint32_t>(atlas.report.notes.size()));
   for (const std::string& note : atlas.report.notes) writer.text(note);
   pack_rows(atlas.charts, writer);

@@ -6,15 +6,19 @@ namespace lodestone::geometry_image {
 namespace {
 
 // To be raised whenever build_atlas makes something else of the same input.
-constexpr uint32_t build_version = 4;
+constexpr uint32_t build_version = 5;
 
 }  // namespace
 
-std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind) {
+std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembly,
+                       const AtlasSettings& settings) {
   ContentHash hash;
   hash.add(std::string("geometry-image atlas"));
   hash.add_value(build_version);
-  hash.add_value(kind);
+  hash.add_value(settings.kind);
+  hash.add_value(settings.charts.texel_budget);
+  hash.add_value(settings.charts.signal);
+  hash.add_value(settings.charts.all_shapes);
   // Triangles, and what decides which vertices are one point.
   hash.add_array(assembly.placements);
   hash.add_array(assembly.parts);
@@ -24,6 +28,11 @@ std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembl
   hash.add_array(assembly.morphs);
   hash.add_array(assembly.first_influence);
   hash.add_array(assembly.influences);
+  // Where attributes change, charts of resampled surfaces are cut.
+  hash.add_array(assembly.normals);
+  hash.add_array(assembly.texcoords[0]);
+  hash.add_array(assembly.texcoords[1]);
+  hash.add_array(assembly.colors);
   // The rest pose, which decides the order of charts.
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   hash.add_array(scene::frame_weights(scene, assembly, rest));

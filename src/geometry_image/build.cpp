@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// From the input mesh to an atlas (section 3.1 of the paper). Where the paper parameterises each surface over
-// a few large charts and resamples it, the two kinds here keep the input's own triangles: a mesh that is a
-// grid of samples already is a chart as it stands, and any other triangle becomes a small chart of its own.
+// From the input mesh to an atlas (section 3.1 of the paper). The paper parameterises each surface over a few
+// large charts and resamples it (mapped_charts.h). Two other kinds keep the input's own triangles: a mesh
+// that is a grid of samples already is a chart as it stands, and any triangle can be a small chart of its
+// own.
 #include "lodestone/geometry_image/build.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/charts.h"
+#include "lodestone/geometry_image/mapped_charts.h"
 #include "lodestone/geometry_image/notes.h"
 #include "lodestone/geometry_image/slots.h"
 #include "lodestone/geometry_image/triangle_survey.h"
@@ -30,7 +36,8 @@ std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly&
            "use --atlas exact",
            placement.mesh, mesh.name, scene.name);
     }
-    as_grid.push_back(kind != AtlasKind::exact && !mesh.grids.empty());
+    const bool may_be_grid = kind == AtlasKind::automatic || kind == AtlasKind::grid;
+    as_grid.push_back(may_be_grid && !mesh.grids.empty());
     if (as_grid.back() && !checked[placement.mesh]) {
       check_grids(scene, mesh);
       checked[placement.mesh] = true;
@@ -40,15 +47,20 @@ std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly&
 }
 
 // Middle of a chart's bounding box.
-glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions,
+glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions, const Atlas& atlas,
                  const layout::ChartRecord& chart) {
-  glm::vec3 lo = positions[assembly.triangles[chart.first_triangle].x], hi = lo;
-  for (uint64_t i = 0; i < triangle_count(chart); ++i) {
-    const glm::uvec4& triangle = assembly.triangles[chart.first_triangle + i];
+  glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
+  const auto include = [&](uint32_t triangle) {
     for (glm::length_t corner = 0; corner < 3; ++corner) {
-      lo = glm::min(lo, positions[triangle[corner]]);
-      hi = glm::max(hi, positions[triangle[corner]]);
+      lo = glm::min(lo, positions[assembly.triangles[triangle][corner]]);
+      hi = glm::max(hi, positions[assembly.triangles[triangle][corner]]);
     }
+  };
+  if (chart.kind == layout::chart_mapped) {
+    for (uint64_t i = 0; i < texel_count(chart); ++i) include(atlas.texel_map[chart.first_texel + i].x);
+  } else {
+    for (uint64_t i = 0; i < triangle_count(chart); ++i)
+      include(static_cast<uint32_t>(chart.first_triangle + i));
   }
   // A transform may overflow; where the chart is put then does not matter, but numbers must have an order.
   glm::vec3 middle = 0.5f * lo + 0.5f * hi;
@@ -59,50 +71,93 @@ glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& 
 
 // In the rest pose.
 std::vector<glm::vec3> chart_centers(const scene::Scene& scene, const scene::Assembly& assembly,
-                                     const std::vector<layout::ChartRecord>& charts) {
+                                     const Atlas& atlas) {
   constexpr uint64_t grain = 1u << 10;
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   const std::vector<glm::vec3> positions = scene::blended_positions(
       assembly, scene::frame_weights(scene, assembly, rest), scene::frame_matrices(scene, assembly, rest));
-  std::vector<glm::vec3> centers(charts.size());
-  parallel_for(charts.size(), grain, [&](uint64_t begin, uint64_t end) {
-    for (uint64_t i = begin; i < end; ++i) centers[i] = center(assembly, positions, charts[i]);
+  std::vector<glm::vec3> centers(atlas.charts.size());
+  parallel_for(centers.size(), grain, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) centers[i] = center(assembly, positions, atlas, atlas.charts[i]);
   });
   return centers;
 }
 
-// Welds and surveys; what these need is freed before the maps are made.
-std::vector<layout::ChartRecord> chart_surface(const scene::Scene& scene, const scene::Assembly& assembly,
-                                               AtlasKind kind, AtlasReport& report) {
-  const std::vector<bool> as_grid = choose_kinds(scene, assembly, kind);
+// Resamples the triangles that get no chart of their own; those that cannot be mapped get one.
+MappedCharts map_surfaces(const scene::Scene& scene, const scene::Assembly& assembly,
+                          const std::vector<uint32_t>& welded, const std::vector<bool>& as_grid,
+                          const AtlasSettings& settings, TriangleSurvey& survey, AtlasReport& report,
+                          const OnStage& on_stage) {
+  std::vector<uint32_t> triangles;
+  for (size_t p = 0; p < as_grid.size(); ++p) {
+    const scene::Placement& placement = assembly.placements[p];
+    for (uint32_t i = 0; !as_grid[p] && i < scene.meshes[placement.mesh].triangles.size(); ++i)
+      if (!is_dropped(survey.fates[placement.first_triangle + i]))
+        triangles.push_back(placement.first_triangle + i);
+  }
+  MappedCharts mapped = map_charts(scene, assembly, welded, triangles, settings.charts, on_stage);
+  std::vector<uint32_t> done;
+  std::set_difference(triangles.begin(), triangles.end(), mapped.left_out.begin(), mapped.left_out.end(),
+                      std::back_inserter(done));
+  for (const uint32_t t : done) survey.fates[t] = TriangleFate::mapped;
+  report.mapped_triangles = done.size();
+  report.mapped_charts = mapped.charts.size();
+  report.repeated_texels = mapped.repeated_texels;
+  report.mean_stretch = mapped.mean_stretch;
+  report.high_stretch = mapped.high_stretch;
+  if (!mapped.left_out.empty()) {
+    report.notes.push_back(
+        fmt::format("{} triangles cannot be resampled and stay as they are: surfaces that no chart can be "
+                    "mapped to; the first is triangle {}.",
+                    mapped.left_out.size(), mapped.left_out.front()));
+  }
+  return mapped;
+}
+
+// Charts and texel map. Welds and surveys; what these need is freed before the other maps are made.
+void chart_surface(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                   Atlas& atlas, const OnStage& on_stage) {
+  const std::vector<bool> as_grid = choose_kinds(scene, assembly, settings.kind);
   const std::vector<uint32_t> welded = weld(assembly);
-  const TriangleSurvey survey = survey_triangles(scene, assembly, welded, as_grid);
-  for (uint32_t v = 0; v < welded.size(); ++v) report.welded_vertices += welded[v] == v ? 0 : 1;
-  report_survey(scene, assembly, survey, report);
-  std::vector<layout::ChartRecord> charts = make_charts(scene, assembly, survey, as_grid);
-  if (charts.empty()) {
+  TriangleSurvey survey = survey_triangles(scene, assembly, welded, as_grid);
+  for (uint32_t v = 0; v < welded.size(); ++v) atlas.report.welded_vertices += welded[v] == v ? 0 : 1;
+  report_survey(scene, assembly, survey, atlas.report);
+  MappedCharts mapped;
+  if (settings.kind == AtlasKind::charts)
+    mapped = map_surfaces(scene, assembly, welded, as_grid, settings, survey, atlas.report, on_stage);
+  atlas.charts = make_charts(scene, assembly, survey, as_grid);
+  atlas.texel_map = make_texel_map(atlas.charts);
+  const auto first_chart = static_cast<uint32_t>(atlas.charts.size());
+  const auto first_texel = static_cast<uint32_t>(atlas.texel_map.size());
+  for (layout::ChartRecord& chart : mapped.charts) {
+    chart.first_texel += first_texel;
+    atlas.charts.push_back(chart);
+  }
+  for (const glm::uvec4& texel : mapped.texels)
+    atlas.texel_map.push_back(texel + glm::uvec4(0, 0, 0, first_chart));
+  if (atlas.charts.empty()) {
     fail_input(scene.name, "none of its {} triangles has an area in any pose; there is nothing to draw",
                assembly.triangles.size());
   }
-  return charts;
 }
 
 }  // namespace
 
-Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind) {
-  return build_atlas(scene, assembly, kind, ChartOrder::median);
+Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                  const OnStage& on_stage) {
+  return build_atlas(scene, assembly, settings, ChartOrder::median, on_stage);
 }
 
-Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind,
-                  ChartOrder order) {
+Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                  ChartOrder order, const OnStage& on_stage) {
   Atlas atlas;
-  atlas.charts = chart_surface(scene, assembly, kind, atlas.report);
+  chart_surface(scene, assembly, settings, atlas, on_stage);
   atlas.kind = kind_of(atlas.charts);
+  if (on_stage) on_stage("order");
   std::vector<glm::vec3> centers;
-  if (atlas.charts.size() > 1) centers = chart_centers(scene, assembly, atlas.charts);
+  if (atlas.charts.size() > 1) centers = chart_centers(scene, assembly, atlas);
   const uint64_t slots = assign_slots(atlas.charts, centers, order, scene.name);
   atlas.depth = tree_depth(slots);
-  atlas.texel_map = make_texel_map(atlas.charts);
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.texels = atlas.texel_map.size();
   atlas.report.slots = slots;

@@ -7,7 +7,7 @@
 
 namespace lodestone::geometry_image {
 
-Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind,
-                  ChartOrder order);
+Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                  ChartOrder order, const OnStage& on_stage = {});
 
 }  // namespace lodestone::geometry_image

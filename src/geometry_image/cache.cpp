@@ -52,20 +52,21 @@ void keep(const fs::path& file, const Atlas& atlas, const std::string& hash) {
 
 }  // namespace
 
-Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, AtlasKind kind, bool* hit) {
+Atlas cached_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                   bool* hit, const OnStage& on_stage) {
   if (hit != nullptr) *hit = false;
   const fs::path folder = cache_folder();
   if (folder.empty()) {
     log::note("no cache folder: set LODESTONE_CACHE to one");
-    return build_atlas(scene, assembly, kind);
+    return build_atlas(scene, assembly, settings, on_stage);
   }
-  const std::string hash = atlas_hash(scene, assembly, kind);
+  const std::string hash = atlas_hash(scene, assembly, settings);
   const fs::path file = folder / ("atlas-" + hash + ".lode");
   if (std::optional<Atlas> found = find_cached(file, hash, assembly)) {
     if (hit != nullptr) *hit = true;
     return std::move(*found);
   }
-  Atlas atlas = build_atlas(scene, assembly, kind);
+  Atlas atlas = build_atlas(scene, assembly, settings, on_stage);
   keep(file, atlas, hash);
   return atlas;
 }

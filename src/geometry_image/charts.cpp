@@ -111,7 +111,7 @@ std::vector<layout::ChartRecord> make_charts(const scene::Scene& scene, const sc
       }
       for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const uint32_t t = placement.first_triangle + i;
-        if (!is_dropped(survey.fates[t])) visit(exact_side, exact_side, layout::chart_exact, t);
+        if (has_own_chart(survey.fates[t])) visit(exact_side, exact_side, layout::chart_exact, t);
       }
     }
   };
@@ -141,6 +141,7 @@ AtlasKind kind_of(const std::vector<layout::ChartRecord>& charts) {
                        [kind](const layout::ChartRecord& chart) { return chart.kind == kind; });
   };
   if (all(layout::chart_grid)) return AtlasKind::grid;
+  if (all(layout::chart_mapped)) return AtlasKind::charts;
   return all(layout::chart_exact) ? AtlasKind::exact : AtlasKind::automatic;
 }
 

@@ -13,6 +13,7 @@ namespace lodestone::geometry_image {
 enum class TriangleFate : uint8_t {
   kept,
   kept_flat,     // no area in the rest pose, but a pose can open it, or it seals its neighbours to each other
+  mapped,        // resampled, as part of a larger chart
   dropped_flat,  // no area in any pose, and the surface is not tighter with it
   dropped_collapsed,  // two corners are one point in every pose
   dropped_duplicate   // a lower triangle has the same corners in the same cyclic order
@@ -20,6 +21,10 @@ enum class TriangleFate : uint8_t {
 
 inline bool is_dropped(TriangleFate fate) {
   return fate >= TriangleFate::dropped_flat;
+}
+
+inline bool has_own_chart(TriangleFate fate) {
+  return fate == TriangleFate::kept || fate == TriangleFate::kept_flat;
 }
 
 struct TriangleSurvey {

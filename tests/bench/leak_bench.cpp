@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The leak check at length: leak_bench SCENE DEVICE RAYS, e.g. leak_bench armadillo.obj cpu 100000000.
-// RAYS are shared between the parts of the scene that are closed. Exit code 1 where a ray leaks.
+// The leak check at length: leak_bench SCENE DEVICE RAYS [charts], e.g. leak_bench armadillo.obj cpu
+// 100000000. RAYS are shared between the parts of the scene that are closed. Exit code 1 where a ray leaks.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -27,13 +27,13 @@ std::vector<glm::vec3> origins_of(const ReadyScene& ready) {
 }
 
 // The scene where it is closed as a whole, or else each of its nodes that is closed by itself.
-std::vector<Closed> closed_parts(const std::string& spec) {
+std::vector<Closed> closed_parts(const std::string& spec, geometry_image::AtlasKind kind) {
   const scene::Scene whole = spec.starts_with("sphere:")
                                  ? grid_sphere(static_cast<uint32_t>(std::atoi(spec.c_str() + 7)))
                                  : scene::load(spec);
   std::vector<Closed> parts;
   const auto add = [&](const std::string& name, scene::Scene scene) {
-    ReadyScene ready(std::move(scene));
+    ReadyScene ready(std::move(scene), kind);
     std::vector<glm::vec3> origins = origins_of(ready);
     if (!origins.empty()) parts.push_back({name, std::move(ready), std::move(origins)});
   };
@@ -60,6 +60,10 @@ uint64_t leaks(const Closed& part, const std::string& device, uint64_t rays) {
       check_leaks(renderer, texels, quad_triangles(part.ready.atlas), part.origins, rays, 5);
   fmt::print("{}: {} rays from {} points inside on {}, {}: {} leaks\n", part.name, report.rays,
              report.origins, backend->info().name, to_string(renderer.traversal()), report.leaks);
+  if (report.leaks > 0) {
+    fmt::print("  the first from {} {} {} towards {} {} {}\n", report.origin.x, report.origin.y,
+               report.origin.z, report.direction.x, report.direction.y, report.direction.z);
+  }
   std::fflush(stdout);
   return report.leaks;
 }
@@ -69,11 +73,12 @@ uint64_t leaks(const Closed& part, const std::string& device, uint64_t rays) {
 
 int main(int argc, char** argv) try {
   using namespace lodestone;
-  if (argc != 4) {
-    fmt::print(stderr, "usage: leak_bench SCENE|sphere:N DEVICE RAYS\n");
+  if (argc != 4 && argc != 5) {
+    fmt::print(stderr, "usage: leak_bench SCENE|sphere:N DEVICE RAYS [charts]\n");
     return 2;
   }
-  const std::vector<test::Closed> parts = test::closed_parts(argv[1]);
+  const std::vector<test::Closed> parts = test::closed_parts(
+      argv[1], argc == 5 ? geometry_image::AtlasKind::charts : geometry_image::AtlasKind::automatic);
   if (parts.empty()) {
     fmt::print(stderr, "{}: no point is inside: nothing in it is closed\n", argv[1]);
     return 3;

@@ -50,6 +50,18 @@ TEST_P(Leaks, NoneFromTheArmadillo) {
   expect_none(leaks(ReadyScene(*file), GetParam(), 300000));
 }
 
+TEST_P(Leaks, NoneFromASphereAsMappedCharts) {
+  geometry_image::AtlasSettings settings = geometry_image::AtlasKind::charts;
+  settings.charts.texel_budget = 4096;
+  expect_none(leaks(ReadyScene(grid_sphere(40), settings), GetParam(), 300000));
+}
+
+TEST_P(Leaks, NoneFromTheArmadilloAsMappedCharts) {
+  const auto file = data_file("armadillo.obj");
+  if (!file) GTEST_SKIP() << "shared data are absent";
+  expect_none(leaks(ReadyScene(*file, geometry_image::AtlasKind::charts), GetParam(), 300000));
+}
+
 INSTANTIATE_TEST_SUITE_P(, Leaks, testing::ValuesIn(device_names()),
                          [](const auto& each) { return each.param; });
 

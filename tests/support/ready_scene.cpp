@@ -10,13 +10,15 @@
 
 namespace lodestone::test {
 
-ReadyScene::ReadyScene(scene::Scene made, geometry_image::AtlasKind kind)
-    : scene(std::move(made)), assembly(scene::assemble(scene)), atlas(build_atlas(scene, assembly, kind)) {
+ReadyScene::ReadyScene(scene::Scene made, const geometry_image::AtlasSettings& settings)
+    : scene(std::move(made)),
+      assembly(scene::assemble(scene)),
+      atlas(build_atlas(scene, assembly, settings)) {
   animation = scene.animations.empty() ? scene::none : 0;
 }
 
-ReadyScene::ReadyScene(const std::string& spec, geometry_image::AtlasKind kind)
-    : ReadyScene(scene::load(spec), kind) {}
+ReadyScene::ReadyScene(const std::string& spec, const geometry_image::AtlasSettings& settings)
+    : ReadyScene(scene::load(spec), settings) {}
 
 std::vector<glm::vec3> ReadyScene::texels(const scene::Pose& pose) const {
   const auto points = scene::blended_positions(assembly, scene::frame_weights(scene, assembly, pose),

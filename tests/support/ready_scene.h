@@ -18,10 +18,9 @@ struct ReadyScene {
   geometry_image::Atlas atlas;
   uint32_t animation = scene::none;
 
-  ReadyScene(scene::Scene made, geometry_image::AtlasKind kind = geometry_image::AtlasKind::automatic);
+  ReadyScene(scene::Scene made, const geometry_image::AtlasSettings& settings = {});
   // A file or builtin:NAME.
-  explicit ReadyScene(const std::string& spec,
-                      geometry_image::AtlasKind kind = geometry_image::AtlasKind::automatic);
+  explicit ReadyScene(const std::string& spec, const geometry_image::AtlasSettings& settings = {});
 
   scene::Pose pose(float time) const { return scene::evaluate(scene, animation, time); }
   // The points of all texels at a pose, in the arithmetic of `blend` and `rasterise`.

@@ -92,7 +92,11 @@ TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
                "bake it again");
-  file[8] = std::byte(3);
+  file[8] = std::byte(3);  // before surfaces were resampled
+  sign(file);
+  expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
+               "bake it again");
+  file[8] = std::byte(4);
   file[12] = std::byte(2);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
@@ -222,14 +226,14 @@ TEST_F(AtlasFile, IsRefusedWhereItsRecordIsNone) {
   refuse({"", "a.png", -1}, "height scale");
   refuse({"", "a.png", std::numeric_limits<float>::infinity()}, "height scale");
   refuse({"", "a.png", std::numeric_limits<float>::quiet_NaN()}, "height scale");
-  refuse({"", "a.png", 0, AtlasKind(3)}, "unknown kind");
+  refuse({"", "a.png", 0, AtlasKind(4)}, "unknown kind");
 }
 
 // Whatever sizes a file claims, memory follows the data that are there.
 TEST_F(AtlasFile, AllocatesNoMoreThanItHolds) {
   Bytes file = pack_atlas(atlas_of(sample_scene()), {""});
   constexpr size_t counts_at =
-      8 + 4 + 4 + 4 + 4 + 4 + 4 + 4 + 4;  // magic, version, content, empty record, kind, depth
+      8 + 4 + 4 + (4 + 4 + 4 + 4 + 8 + 4 + 4) + 4 + 4;  // magic, version, content, empty record, kind, depth
   for (size_t which = 0; which < 3; ++which) {
     for (const uint64_t count :
          {uint64_t(1) << 28, (uint64_t(1) << 31) - 1, uint64_t(1) << 60, ~uint64_t(0)}) {

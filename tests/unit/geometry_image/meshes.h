@@ -84,12 +84,12 @@ inline scene::Mesh random_mesh(uint32_t seed, uint32_t vertices, uint32_t triang
   return mesh;
 }
 
-inline Atlas atlas_of(const scene::Scene& scene, AtlasKind kind = AtlasKind::automatic) {
-  return build_atlas(scene, scene::assemble(scene), kind);
+inline Atlas atlas_of(const scene::Scene& scene, const AtlasSettings& settings = {}) {
+  return build_atlas(scene, scene::assemble(scene), settings);
 }
 
-inline Atlas atlas_of(scene::Mesh mesh, AtlasKind kind = AtlasKind::automatic) {
-  return atlas_of(scene_of({std::move(mesh)}), kind);
+inline Atlas atlas_of(scene::Mesh mesh, const AtlasSettings& settings = {}) {
+  return atlas_of(scene_of({std::move(mesh)}), settings);
 }
 
 }  // namespace lodestone::geometry_image::test

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/arc_places.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace lodestone::base_complex {
+namespace {
+
+// An arc as a curve by distance.
+class Curve {
+ public:
+  Curve(const HalfEdgeMesh& mesh, const Arc& arc) : mesh_(mesh), points_(arc.points) {
+    along_.push_back(0);
+    for (size_t i = 1; i < points_.size(); ++i)
+      along_.push_back(along_.back() + glm::distance(position(i - 1), position(i)));
+  }
+
+  double length() const { return along_.back(); }
+  size_t points() const { return points_.size(); }
+  double along(size_t point) const { return along_[point]; }
+  // The points with distances above `low` and below `high`.
+  std::pair<size_t, size_t> between(double low, double high) const {
+    const auto first = std::upper_bound(along_.begin(), along_.end(), low);
+    const auto last = std::lower_bound(first, along_.end(), high);
+    return {size_t(first - along_.begin()), size_t(last - along_.begin())};
+  }
+
+  glm::dvec3 at(double distance) const {
+    const auto behind = std::upper_bound(along_.begin(), along_.end(), distance);
+    const size_t i = std::clamp<size_t>(size_t(behind - along_.begin()), 1, along_.size() - 1);
+    const double step = along_[i] - along_[i - 1];
+    const double t = step > 0 ? (distance - along_[i - 1]) / step : 0.0;
+    return position(i - 1) * (1 - t) + position(i) * t;
+  }
+
+  // The point between two places that is farthest from the chord between them, and how far it is.
+  struct Farthest {
+    double distance = 0;
+    size_t point = 0;
+  };
+  Farthest farthest(double from, double to) const {
+    const glm::dvec3 a = at(from), chord = at(to) - a;
+    const double length2 = glm::dot(chord, chord);
+    Farthest found;
+    const auto [first, last] = between(from, to);
+    for (size_t p = first; p < last; ++p) {
+      const glm::dvec3 from_a = position(p) - a;
+      const double t = length2 > 0 ? std::clamp(glm::dot(from_a, chord) / length2, 0.0, 1.0) : 0.0;
+      const double distance = glm::length(from_a - t * chord);
+      if (distance > found.distance) found = {distance, p};
+    }
+    return found;
+  }
+
+ private:
+  const glm::dvec3& position(size_t i) const { return mesh_.position(points_[i]); }
+
+  const HalfEdgeMesh& mesh_;
+  const std::vector<uint32_t>& points_;
+  std::vector<double> along_;
+};
+
+// Where the arc bends most, until no point is far from the polyline or `most` places are taken; the ends are
+// among them.
+std::vector<double> bends(const Curve& curve, uint32_t most, double near_enough) {
+  struct Piece {
+    Curve::Farthest farthest;
+    double from, to;
+    bool operator<(const Piece& other) const {
+      return farthest.distance != other.farthest.distance ? farthest.distance < other.farthest.distance
+                                                          : from > other.from;
+    }
+  };
+  std::vector<double> places = {0, curve.length()};
+  std::priority_queue<Piece> pieces;
+  pieces.push({curve.farthest(0, curve.length()), 0, curve.length()});
+  while (places.size() < most && pieces.top().farthest.distance > near_enough) {
+    const Piece piece = pieces.top();
+    pieces.pop();
+    const double middle = curve.along(piece.farthest.point);
+    places.push_back(middle);
+    pieces.push({curve.farthest(piece.from, middle), piece.from, middle});
+    pieces.push({curve.farthest(middle, piece.to), middle, piece.to});
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+std::vector<double> place_samples(const Curve& curve, bool firm, uint32_t segments) {
+  constexpr double near_enough = 0.02;  // of the even spacing
+  std::vector<double> fixed = {0, curve.length()};
+  if (firm) fixed = bends(curve, segments + 1, near_enough * curve.length() / segments);
+  // What is left over goes where gaps are longest.
+  const size_t gaps = fixed.size() - 1;
+  std::vector<uint32_t> parts(gaps, 1);
+  for (size_t left = segments - gaps; left > 0; --left) {
+    size_t longest = 0;
+    for (size_t g = 1; g < gaps; ++g)
+      if ((fixed[g + 1] - fixed[g]) / parts[g] > (fixed[longest + 1] - fixed[longest]) / parts[longest])
+        longest = g;
+    ++parts[longest];
+  }
+  std::vector<double> places;
+  for (size_t g = 0; g < gaps; ++g)
+    for (uint32_t i = 0; i < parts[g]; ++i)
+      places.push_back(fixed[g] + (fixed[g + 1] - fixed[g]) * i / parts[g]);
+  places.push_back(curve.length());
+  return places;
+}
+
+}  // namespace
+
+std::vector<double> arc_places(const BaseComplex& complex, uint32_t arc, uint32_t segments) {
+  return place_samples(Curve(complex.mesh, complex.arcs[arc]), complex.arcs[arc].firm, segments);
+}
+
+double arc_error(const BaseComplex& complex, uint32_t arc, uint32_t segments) {
+  const Curve curve(complex.mesh, complex.arcs[arc]);
+  const std::vector<double> places = place_samples(curve, complex.arcs[arc].firm, segments);
+  double most = 0;
+  for (size_t i = 0; i + 1 < places.size(); ++i)
+    most = std::max(most, curve.farthest(places[i], places[i + 1]).distance);
+  return most;
+}
+
+}  // namespace lodestone::base_complex

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/base_complex.h"
+
+#include <utility>
+
+#include "lodestone/base_complex/corners.h"
+#include "lodestone/base_complex/nodes.h"
+
+namespace lodestone::base_complex {
+namespace {
+
+// Cuts boundaries at the nodes; the pieces are arcs, each found again by its edges.
+class ArcFinder {
+ public:
+  ArcFinder(BaseComplex& complex, const Boundaries& boundaries, const std::vector<bool>& is_node)
+      : complex_(complex), mesh_(complex.mesh), boundaries_(boundaries), is_node_(is_node) {
+    arc_of_edge_.assign(3 * size_t(mesh_.faces()), none);
+  }
+
+  void run(const std::vector<std::array<uint32_t, 4>>& corners) {
+    for (uint32_t c = 0; c < boundaries_.size(); ++c) {
+      const std::vector<uint32_t>& boundary = boundaries_[c];
+      // The first corner is a node, and the boundary starts there.
+      const size_t start = corners[c][0];
+      Cell& cell = complex_.cells[c];
+      size_t corner = 0;
+      for (size_t i = 0; i < boundary.size();) {
+        size_t end = i + 1;
+        while (end < boundary.size() && !is_node_[mesh_.from(at(boundary, start + end))]) ++end;
+        if (corner < 4 && start + i == corners[c][corner])
+          cell.corners[corner++] = static_cast<uint32_t>(cell.boundary.size());
+        cell.boundary.push_back(passage(boundary, start + i, start + end));
+        i = end;
+      }
+    }
+  }
+
+ private:
+  static uint32_t at(const std::vector<uint32_t>& boundary, size_t i) {
+    return boundary[i % boundary.size()];
+  }
+
+  Passage passage(const std::vector<uint32_t>& boundary, size_t begin, size_t end) {
+    const uint32_t first = at(boundary, begin);
+    uint32_t& known = arc_of_edge_[mesh_.edge_name(first)];
+    if (known == none) {
+      const auto index = static_cast<uint32_t>(complex_.arcs.size());
+      Arc& arc = complex_.arcs.emplace_back();
+      arc.firm = mesh_.is_barrier(first);
+      for (size_t i = begin; i < end; ++i) {
+        const uint32_t h = at(boundary, i);
+        arc_of_edge_[mesh_.edge_name(h)] = index;
+        arc.points.push_back(mesh_.from(h));
+        arc.length += mesh_.length(h);
+      }
+      arc.points.push_back(mesh_.from(at(boundary, end)));
+    }
+    ++complex_.arcs[known].cells;
+    return {known, complex_.arcs[known].points.front() != mesh_.from(first), first};
+  }
+
+  BaseComplex& complex_;
+  const HalfEdgeMesh& mesh_;
+  const Boundaries& boundaries_;
+  const std::vector<bool>& is_node_;
+  std::vector<uint32_t> arc_of_edge_;  // by the edge's name
+};
+
+}  // namespace
+
+uint32_t next_on_boundary(const BaseComplex& complex, uint32_t half_edge) {
+  const HalfEdgeMesh& mesh = complex.mesh;
+  const uint32_t cell = complex.cell_of_face[face_of(half_edge)];
+  uint32_t h = next(half_edge);
+  while (mesh.twin(h) != none && complex.cell_of_face[face_of(mesh.twin(h))] == cell) h = next(mesh.twin(h));
+  return h;
+}
+
+BaseComplex build_complex(HalfEdgeMesh mesh, Cells cells) {
+  BaseComplex complex(std::move(mesh));
+  split_for_boundaries(complex.mesh, cells);
+  const Boundaries boundaries = trace_boundaries(complex.mesh, cells);
+  std::vector<bool> is_node = find_nodes(complex.mesh, cells, boundaries);
+  const std::vector<std::array<uint32_t, 4>> corners =
+      choose_corners(complex.mesh, cells, boundaries, is_node);
+  complex.cells.resize(cells.count);
+  ArcFinder(complex, boundaries, is_node).run(corners);
+  complex.cell_of_face = std::move(cells.of_face);
+  for (uint32_t face = 0; face < complex.cell_of_face.size(); ++face) {
+    Cell& cell = complex.cells[complex.cell_of_face[face]];
+    cell.faces.push_back(face);
+    cell.area += complex.mesh.area(face);
+  }
+  return complex;
+}
+
+}  // namespace lodestone::base_complex

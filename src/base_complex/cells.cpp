@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+
+#include "lodestone/base/parallel.h"
+
+namespace lodestone::base_complex {
+namespace {
+
+constexpr double far_away = std::numeric_limits<double>::infinity();
+constexpr uint64_t faces_a_task = 1u << 12;
+constexpr int smoothings = 12;  // of normals, so that noise and small bumps do not steer the cells
+
+struct Front {
+  double cost;
+  uint32_t face, seed;
+  // A priority queue gives the cheapest; ties go to the lower face, so that nothing depends on chance.
+  bool operator<(const Front& other) const {
+    return cost != other.cost ? cost > other.cost : face > other.face;
+  }
+};
+
+class Grower {
+ public:
+  Grower(const HalfEdgeMesh& mesh, const CellOptions& options) : mesh_(mesh), options_(options) {
+    const uint32_t faces = mesh.faces();
+    centroids_.resize(faces);
+    normals_.resize(faces);
+    areas_.resize(faces);
+    parallel_for(faces, faces_a_task, [&](uint64_t begin, uint64_t end) {
+      for (auto f = static_cast<uint32_t>(begin); f < end; ++f) {
+        centroids_[f] = mesh.centroid(f);
+        normals_[f] = mesh.normal(f);
+        areas_[f] = mesh.area(f);
+      }
+    });
+    for (int i = 0; i < smoothings; ++i) smooth_normals();
+    cost_.assign(faces, far_away);
+    seed_of_.assign(faces, none);
+  }
+
+  Cells run() {
+    find_regions();
+    double area = 0;
+    for (const double a : areas_) area += a;
+    limit_ = cell_radius(area, options_) * reach_of_a_cell;
+    for (const std::vector<uint32_t>& region : regions_) {
+      seed(region);
+      for (uint32_t i = 0; i < options_.relaxations; ++i) {
+        if (!recentre(region)) break;
+      }
+      first_seed_ = static_cast<uint32_t>(seeds_.size());
+    }
+    Cells result;
+    result.of_face = std::move(seed_of_);
+    result.count = static_cast<uint32_t>(seeds_.size());
+    return result;
+  }
+
+ private:
+  // The farthest face of a round cell is this many radii of the mean cell away: cells are no discs, and
+  // farthest-point seeds leave some larger than others.
+  static constexpr double reach_of_a_cell = 2.2;
+
+  void smooth_normals() {
+    std::vector<glm::dvec3> smooth(normals_.size());
+    parallel_for(normals_.size(), faces_a_task, [&](uint64_t begin, uint64_t end) {
+      for (auto f = static_cast<uint32_t>(begin); f < end; ++f) {
+        glm::dvec3 sum = normals_[f] * areas_[f];
+        for (uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
+          if (mesh_.is_barrier(h)) continue;
+          const uint32_t other = face_of(mesh_.twin(h));
+          sum += normals_[other] * areas_[other];
+        }
+        const double length = glm::length(sum);
+        smooth[f] = length > 0 ? sum / length : normals_[f];
+      }
+    });
+    normals_ = std::move(smooth);
+  }
+
+  // Faces that are connected without crossing a barrier.
+  void find_regions() {
+    std::vector<bool> seen(mesh_.faces(), false);
+    std::vector<uint32_t> stack;
+    for (uint32_t start = 0; start < mesh_.faces(); ++start) {
+      if (seen[start]) continue;
+      seen[start] = true;
+      stack = {start};
+      std::vector<uint32_t>& region = regions_.emplace_back();
+      while (!stack.empty()) {
+        const uint32_t face = stack.back();
+        stack.pop_back();
+        region.push_back(face);
+        for (uint32_t h = 3 * face; h < 3 * face + 3; ++h) {
+          if (mesh_.is_barrier(h) || seen[face_of(mesh_.twin(h))]) continue;
+          seen[face_of(mesh_.twin(h))] = true;
+          stack.push_back(face_of(mesh_.twin(h)));
+        }
+      }
+      std::sort(region.begin(), region.end());
+    }
+  }
+
+  // Lets the fronts that are in the queue run; they take what they reach more cheaply than others did.
+  void spread() {
+    while (!queue_.empty()) {
+      const Front front = queue_.top();
+      queue_.pop();
+      if (front.cost != cost_[front.face] || front.seed != seed_of_[front.face]) continue;
+      const glm::dvec3 seed_normal = normals_[seeds_[front.seed]];
+      for (uint32_t h = 3 * front.face; h < 3 * front.face + 3; ++h) {
+        if (mesh_.is_barrier(h)) continue;
+        const uint32_t other = face_of(mesh_.twin(h));
+        const double turn = 1 - glm::dot(seed_normal, normals_[other]);
+        const double cost = front.cost + glm::distance(centroids_[front.face], centroids_[other]) *
+                                             (1 + options_.normal_weight * turn);
+        if (cost < cost_[other]) enter(other, front.seed, cost);
+      }
+    }
+  }
+  void enter(uint32_t face, uint32_t seed, double cost) {
+    cost_[face] = cost;
+    seed_of_[face] = seed;
+    queue_.push({cost, face, seed});
+  }
+
+  // One seed, and another where the region is farthest from all so far, until nothing is too far.
+  void seed(const std::vector<uint32_t>& region) {
+    uint32_t farthest = region.front();
+    do {
+      seeds_.push_back(farthest);
+      enter(farthest, static_cast<uint32_t>(seeds_.size() - 1), 0);
+      spread();
+      for (const uint32_t face : region)
+        if (cost_[face] > cost_[farthest]) farthest = face;
+    } while (cost_[farthest] > limit_);
+  }
+
+  // Moves the region's seeds to the face nearest to the middle of their cells and grows the cells anew.
+  // False where none moved.
+  bool recentre(const std::vector<uint32_t>& region) {
+    const size_t count = seeds_.size() - first_seed_;
+    std::vector<glm::dvec3> middle(count, glm::dvec3(0));
+    std::vector<double> area(count, 0), nearest(count, far_away);
+    for (const uint32_t face : region) {
+      middle[seed_of_[face] - first_seed_] += centroids_[face] * areas_[face];
+      area[seed_of_[face] - first_seed_] += areas_[face];
+    }
+    bool moved = false;
+    std::vector<uint32_t> found(count, none);
+    for (const uint32_t face : region) {
+      const size_t i = seed_of_[face] - first_seed_;
+      if (!(area[i] > 0)) continue;
+      const double distance = glm::distance(centroids_[face], middle[i] / area[i]);
+      if (distance < nearest[i]) {
+        nearest[i] = distance;
+        found[i] = face;
+      }
+    }
+    for (const uint32_t face : region) cost_[face] = far_away;
+    for (size_t i = 0; i < count; ++i) {
+      uint32_t& seed = seeds_[first_seed_ + i];
+      if (found[i] != none && found[i] != seed) {
+        seed = found[i];
+        moved = true;
+      }
+      enter(seed, static_cast<uint32_t>(first_seed_ + i), 0);
+    }
+    spread();
+    return moved;
+  }
+
+  const HalfEdgeMesh& mesh_;
+  const CellOptions& options_;
+  std::vector<glm::dvec3> centroids_, normals_;
+  std::vector<double> areas_, cost_;
+  std::vector<uint32_t> seed_of_, seeds_;
+  std::vector<std::vector<uint32_t>> regions_;
+  std::priority_queue<Front> queue_;
+  double limit_ = 0;
+  uint32_t first_seed_ = 0;  // of the region at hand
+};
+
+}  // namespace
+
+double cell_radius(double area, const CellOptions& options) {
+  return std::sqrt(area / (std::max(options.cells, 1u) * std::numbers::pi));
+}
+
+Cells grow_cells(const HalfEdgeMesh& mesh, const CellOptions& options) {
+  Cells cells = Grower(mesh, options).run();
+  make_discs(mesh, cells);
+  return cells;
+}
+
+std::vector<std::vector<uint32_t>> faces_by_cell(const Cells& cells) {
+  std::vector<std::vector<uint32_t>> faces(cells.count);
+  for (uint32_t f = 0; f < cells.of_face.size(); ++f) faces[cells.of_face[f]].push_back(f);
+  return faces;
+}
+
+}  // namespace lodestone::base_complex

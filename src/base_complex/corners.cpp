@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "lodestone/base/parallel.h"
+#include "lodestone/base_complex/outline.h"
+
+namespace lodestone::base_complex {
+namespace {
+
+// Chooses four corners so that the sides opposite each other are about equally long, the rectangle not long,
+// and the surface's own corners are corners.
+class CornerChoice {
+ public:
+  CornerChoice(const HalfEdgeMesh& mesh, const std::vector<uint32_t>& boundary,
+               const std::vector<double>& angles, const std::vector<bool>& is_node)
+      : mesh_(mesh), boundary_(boundary), is_node_(is_node), outline_(mesh, boundary) {
+    find_bends(angles);
+    find_candidates();
+  }
+
+  std::array<uint32_t, 4> run() const {
+    std::array<uint32_t, 4> best{};
+    double least = std::numeric_limits<double>::infinity();
+    const size_t count = candidates_.size();
+    for (size_t a = 0; a + 3 < count; ++a) {
+      for (size_t b = a + 1; b + 2 < count; ++b) {
+        for (size_t c = b + 1; c + 1 < count; ++c) {
+          for (size_t d = c + 1; d < count; ++d) {
+            const std::array<uint32_t, 4> corners = {candidates_[a], candidates_[b], candidates_[c],
+                                                     candidates_[d]};
+            const double found = cost(corners);
+            if (found < least) {
+              least = found;
+              best = corners;
+            }
+          }
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double right_angle = std::numbers::pi / 2;
+  static constexpr size_t fewest = 4;
+
+  // How far the boundary turns round each point and its near neighbours, as measured on the surface (the
+  // turns of a whole disc and its curvature make 2 pi): of a zigzag little, of a corner of a rectangle a
+  // right angle.
+  void find_bends(const std::vector<double>& angles) {
+    constexpr double near = 0.04;
+    const size_t count = boundary_.size();
+    bends_.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+      double bend = 2 * right_angle - angles[i];
+      for (size_t j = (i + 1) % count; j != i && outline_.between(i, j) < near * outline_.length;
+           j = (j + 1) % count)
+        bend += 2 * right_angle - angles[j];
+      for (size_t j = (i + count - 1) % count; j != i && outline_.between(j, i) < near * outline_.length;
+           j = (j + count - 1) % count)
+        bend += 2 * right_angle - angles[j];
+      bends_[i] = bend;
+    }
+  }
+
+  // All nodes, and points between those that are far apart; but few enough to try all choices.
+  void find_candidates() {
+    constexpr size_t most = 24, evenly = 12;
+    const size_t count = boundary_.size();
+    std::vector<bool> chosen(count, false);
+    size_t nodes = 0;
+    for (size_t i = 0; i < count; ++i) nodes += is_node_[mesh_.from(boundary_[i])] ? 1 : 0;
+    if (nodes + evenly <= most) {
+      for (size_t i = 0; i < count; ++i) chosen[i] = is_node_[mesh_.from(boundary_[i])];
+    } else {
+      // Of many nodes those where the boundary bends most.
+      std::vector<size_t> order;
+      for (size_t i = 0; i < count; ++i)
+        if (is_node_[mesh_.from(boundary_[i])]) order.push_back(i);
+      std::sort(order.begin(), order.end(),
+                [&](size_t a, size_t b) { return bends_[a] != bends_[b] ? bends_[a] > bends_[b] : a < b; });
+      for (size_t i = 0; i < most - evenly; ++i) chosen[order[i]] = true;
+    }
+    // The first point behind each twelfth of the way; with four edges, all four.
+    double next = 0;
+    for (size_t i = 0; i < count; ++i) {
+      if (outline_.along[i] < next && count > fewest) continue;
+      chosen[i] = true;
+      while (next <= outline_.along[i]) next += outline_.length / evenly;
+    }
+    for (size_t i = 0; i < count; ++i)
+      if (chosen[i]) candidates_.push_back(static_cast<uint32_t>(i));
+    for (size_t i = 0; candidates_.size() < fewest; ++i)
+      if (!chosen[i]) {
+        chosen[i] = true;
+        candidates_.push_back(static_cast<uint32_t>(i));
+      }
+    std::sort(candidates_.begin(), candidates_.end());
+  }
+
+  double cost(const std::array<uint32_t, 4>& corners) const {
+    constexpr double of_shape = 0.15, of_new_node = 0.05, of_bend = 0.5;
+    const double tiny = 1e-6 * outline_.length + 1e-300;
+    double sides[4];
+    double sum = 0;
+    for (size_t i = 0; i < 4; ++i) sides[i] = outline_.between(corners[i], corners[(i + 1) % 4]) + tiny;
+    const double across = std::log(sides[0] / sides[2]), along = std::log(sides[1] / sides[3]);
+    sum += across * across + along * along;
+    const double aspect = std::log((sides[0] + sides[2]) / (sides[1] + sides[3]));
+    sum += of_shape * aspect * aspect;
+    for (const uint32_t corner : corners) {
+      const double missing = bends_[corner] / right_angle - 1;
+      sum += of_bend * std::min(missing * missing, 4.0);
+      if (!is_node_[mesh_.from(boundary_[corner])]) sum += of_new_node;
+    }
+    return sum;
+  }
+
+  const HalfEdgeMesh& mesh_;
+  const std::vector<uint32_t>& boundary_;
+  const std::vector<bool>& is_node_;
+  Outline outline_;
+  std::vector<double> bends_;
+  std::vector<uint32_t> candidates_;
+};
+
+// The angle between two edges of a face at the start of a half-edge.
+double corner_angle(const HalfEdgeMesh& mesh, uint32_t half_edge) {
+  const glm::dvec3 here = mesh.position(mesh.from(half_edge));
+  const glm::dvec3 a = mesh.position(mesh.to(half_edge)) - here;
+  const glm::dvec3 b = mesh.position(mesh.from(previous(half_edge))) - here;
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// The angle of the cell at the start of each half-edge of its boundary.
+std::vector<double> boundary_angles(const HalfEdgeMesh& mesh, const Cells& cells,
+                                    const std::vector<uint32_t>& boundary) {
+  std::vector<double> angles;
+  for (const uint32_t start : boundary) {
+    const uint32_t cell = cells.of_face[face_of(start)];
+    double angle = corner_angle(mesh, start);
+    for (uint32_t twin = mesh.twin(previous(start)); twin != none && cells.of_face[face_of(twin)] == cell;
+         twin = mesh.twin(previous(twin)))
+      angle += corner_angle(mesh, twin);
+    angles.push_back(angle);
+  }
+  return angles;
+}
+
+}  // namespace
+
+std::vector<std::array<uint32_t, 4>> choose_corners(const HalfEdgeMesh& mesh, const Cells& cells,
+                                                    const Boundaries& boundaries,
+                                                    std::vector<bool>& is_node) {
+  std::vector<std::array<uint32_t, 4>> corners(boundaries.size());
+  parallel_for(boundaries.size(), 1, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t cell = begin; cell < end; ++cell) {
+      const std::vector<double> angles = boundary_angles(mesh, cells, boundaries[cell]);
+      corners[cell] = CornerChoice(mesh, boundaries[cell], angles, is_node).run();
+    }
+  });
+  for (size_t cell = 0; cell < boundaries.size(); ++cell)
+    for (const uint32_t corner : corners[cell]) is_node[mesh.from(boundaries[cell][corner])] = true;
+  return corners;
+}
+
+}  // namespace lodestone::base_complex

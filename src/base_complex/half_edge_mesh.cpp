@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/half_edge_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+namespace lodestone::base_complex {
+namespace {
+
+// What an edge is found by: its points, the lower one first.
+uint64_t edge_key(uint32_t a, uint32_t b) {
+  return (uint64_t(std::min(a, b)) << 32) | std::max(a, b);
+}
+
+struct KeyedEdge {
+  uint64_t key;
+  uint32_t half_edge;
+};
+
+}  // namespace
+
+HalfEdgeMesh::HalfEdgeMesh(std::vector<glm::dvec3> positions, std::span<const glm::uvec3> triangles)
+    : positions_(std::move(positions)) {
+  const size_t half_edges = 3 * triangles.size();
+  from_.reserve(half_edges);
+  for (const glm::uvec3& t : triangles) from_.insert(from_.end(), {t.x, t.y, t.z});
+  twin_.assign(half_edges, none);
+  ring_.resize(half_edges);
+  barrier_.assign(half_edges, 0);
+  triangle_.resize(triangles.size());
+  std::iota(triangle_.begin(), triangle_.end(), 0u);
+  barycentrics_.resize(half_edges);
+  for (size_t h = 0; h < half_edges; ++h)
+    barycentrics_[h] = {h % 3 == 0 ? 1.0 : 0.0, h % 3 == 1 ? 1.0 : 0.0, h % 3 == 2 ? 1.0 : 0.0};
+
+  std::vector<KeyedEdge> edges(half_edges);
+  for (uint32_t h = 0; h < half_edges; ++h) edges[h] = {edge_key(from(h), to(h)), h};
+  std::sort(edges.begin(), edges.end(), [](const KeyedEdge& a, const KeyedEdge& b) {
+    return a.key != b.key ? a.key < b.key : a.half_edge < b.half_edge;
+  });
+  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    for (end = begin; end < edges.size() && edges[end].key == edges[begin].key; ++end) {
+      const bool last = end + 1 == edges.size() || edges[end + 1].key != edges[begin].key;
+      ring_[edges[end].half_edge] = edges[last ? begin : end + 1].half_edge;
+    }
+    const uint32_t first = edges[begin].half_edge, second = ring_[first];
+    if (end - begin == 2 && from(first) != from(second)) connect(first, second);
+  }
+}
+
+void HalfEdgeMesh::connect(uint32_t a, uint32_t b) {
+  twin_[a] = b;
+  if (b != none) twin_[b] = a;
+}
+
+uint32_t HalfEdgeMesh::edge_name(uint32_t half_edge) const {
+  uint32_t lowest = half_edge;
+  for (uint32_t h = ring_[half_edge]; h != half_edge; h = ring_[h]) lowest = std::min(lowest, h);
+  return lowest;
+}
+
+void HalfEdgeMesh::make_barrier(uint32_t half_edge) {
+  barrier_[half_edge] = 1;
+  for (uint32_t h = ring_[half_edge]; h != half_edge; h = ring_[h]) barrier_[h] = 1;
+}
+
+// Splits the face of one half-edge; the two halves of that edge get no twin and are rings of their own yet.
+uint32_t HalfEdgeMesh::split_face(uint32_t half_edge, uint32_t point, double fraction) {
+  const uint32_t face = face_of(half_edge), after = next(half_edge), before = previous(half_edge);
+  const uint32_t taken = faces();
+  const glm::dvec3 middle = barycentrics_[half_edge] * (1 - fraction) + barycentrics_[after] * fraction;
+  triangle_.push_back(triangle_[face]);
+  from_.insert(from_.end(), {point, from_[after], from_[before]});
+  barycentrics_.insert(barycentrics_.end(), {middle, barycentrics_[after], barycentrics_[before]});
+  const uint32_t edge = 3 * taken, moved = edge + 1, inner = edge + 2;
+  // The edge opposite the first corner now belongs to the new face.
+  twin_.insert(twin_.end(), {none, none, none});
+  barrier_.insert(barrier_.end(), {barrier_[half_edge], barrier_[after], 0});
+  ring_.insert(ring_.end(), {edge, ring_[after] == after ? moved : ring_[after], after});
+  if (twin_[after] != none) connect(moved, twin_[after]);
+  for (uint32_t h = moved; ring_[h] != moved; h = ring_[h]) {
+    if (ring_[h] == after) {
+      ring_[h] = moved;
+      break;
+    }
+  }
+  from_[after] = point;
+  barycentrics_[after] = middle;
+  barrier_[after] = 0;
+  ring_[after] = inner;
+  connect(after, inner);
+  twin_[half_edge] = none;
+  return taken;
+}
+
+uint32_t HalfEdgeMesh::split_edge(uint32_t half_edge, double fraction, std::vector<Halves>* halves) {
+  const uint32_t point = points(), start = from(half_edge);
+  const glm::dvec3 place = positions_[start] * (1 - fraction) + positions_[to(half_edge)] * fraction;
+  positions_.push_back(place);
+  const uint32_t opposite = twin_[half_edge];
+  // The ring is taken apart before anything moves.
+  std::vector<uint32_t> ring = {half_edge};
+  for (uint32_t h = ring_[half_edge]; h != half_edge; h = ring_[h]) ring.push_back(h);
+  std::vector<uint32_t> near_start, near_end;
+  for (const uint32_t h : ring) {
+    const bool along = from(h) == start;
+    const uint32_t taken = split_face(h, point, along ? fraction : 1 - fraction);
+    if (halves != nullptr) halves->push_back({face_of(h), taken});
+    (along ? near_start : near_end).push_back(h);
+    (along ? near_end : near_start).push_back(3 * taken);
+  }
+  for (const std::vector<uint32_t>* half : {&near_start, &near_end})
+    for (size_t i = 0; i < half->size(); ++i) ring_[(*half)[i]] = (*half)[(i + 1) % half->size()];
+  if (opposite != none) {
+    connect(near_start[0], near_start[1]);
+    connect(near_end[0], near_end[1]);
+  }
+  return point;
+}
+
+void HalfEdgeMesh::split_longer_than(double length) {
+  struct Long {
+    double length;
+    uint32_t half_edge, from, to;
+    bool operator<(const Long& other) const {
+      return length != other.length ? length < other.length : half_edge > other.half_edge;
+    }
+  };
+  std::priority_queue<Long> queue;
+  const auto consider = [&](uint32_t h) {
+    const double found = this->length(h);
+    if (found > length) queue.push({found, h, from(h), to(h)});
+  };
+  for (uint32_t h = 0; h < from_.size(); ++h)
+    if (edge_name(h) == h) consider(h);
+  while (!queue.empty()) {
+    const Long top = queue.top();
+    queue.pop();
+    // Splitting beside it may have given the half-edge another edge; that one is in the queue by itself.
+    if (from(top.half_edge) != top.from || to(top.half_edge) != top.to) continue;
+    std::vector<Halves> halves;
+    split_edge(top.half_edge, 0.5, &halves);
+    for (const Halves& half : halves) {
+      for (uint32_t k = 0; k < 3; ++k) {
+        consider(3 * half.face + k);
+        consider(3 * half.taken + k);
+      }
+    }
+  }
+}
+
+double HalfEdgeMesh::area(uint32_t face) const {
+  const auto [a, b, c] = corners(face);
+  return 0.5 * glm::length(glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]));
+}
+
+glm::dvec3 HalfEdgeMesh::normal(uint32_t face) const {
+  const auto [a, b, c] = corners(face);
+  const glm::dvec3 across = glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
+  const double size = glm::length(across);
+  return size > 0 ? across / size : glm::dvec3(0);
+}
+
+glm::dvec3 HalfEdgeMesh::centroid(uint32_t face) const {
+  const auto [a, b, c] = corners(face);
+  return (positions_[a] + positions_[b] + positions_[c]) / 3.0;
+}
+
+}  // namespace lodestone::base_complex

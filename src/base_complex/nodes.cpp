@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "lodestone/base_complex/outline.h"
+
+namespace lodestone::base_complex {
+namespace {
+
+constexpr size_t fewest_edges = 4;
+
+// The next half-edge of a cell's boundary: round the end of this one through the faces of the cell.
+uint32_t next_on_boundary(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t half_edge) {
+  const uint32_t cell = cells.of_face[face_of(half_edge)];
+  uint32_t h = next(half_edge);
+  while (mesh.twin(h) != none && cells.of_face[face_of(mesh.twin(h))] == cell) h = next(mesh.twin(h));
+  return h;
+}
+
+bool is_border(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t half_edge) {
+  const uint32_t twin = mesh.twin(half_edge);
+  return twin == none || cells.of_face[face_of(twin)] != cells.of_face[face_of(half_edge)];
+}
+
+// The border edges at a point, and what tells an arc that goes on there from one that ends.
+class BorderGraph {
+ public:
+  BorderGraph(const HalfEdgeMesh& mesh, const Cells& cells) : mesh_(mesh), cells_(cells) {
+    for (uint32_t h = 0; h < 3 * mesh.faces(); ++h) {
+      if (!is_border(mesh, cells, h)) continue;
+      const uint32_t name = mesh.edge_name(h);
+      ends_.emplace_back(mesh.from(h), name);
+      ends_.emplace_back(mesh.to(h), name);
+    }
+    std::sort(ends_.begin(), ends_.end());
+    ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
+  }
+
+  // Calls visit(point, edges), `edges` by name, for every point of a border.
+  template <class Visit>
+  void for_each_point(Visit visit) const {
+    for (size_t begin = 0, end = 0; begin < ends_.size(); begin = end) {
+      std::vector<uint32_t> edges;
+      for (end = begin; end < ends_.size() && ends_[end].first == ends_[begin].first; ++end)
+        edges.push_back(ends_[end].second);
+      visit(ends_[begin].first, edges);
+    }
+  }
+
+  bool goes_on(const std::vector<uint32_t>& edges) const {
+    return edges.size() == 2 && beside(edges[0]) == beside(edges[1]);
+  }
+
+ private:
+  std::vector<uint32_t> beside(uint32_t edge) const {
+    std::vector<uint32_t> found;
+    uint32_t h = edge;
+    do {
+      found.push_back(cells_.of_face[face_of(h)]);
+      h = mesh_.next_on_edge(h);
+    } while (h != edge);
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  const HalfEdgeMesh& mesh_;
+  const Cells& cells_;
+  std::vector<std::pair<uint32_t, uint32_t>> ends_;  // point and edge
+};
+
+class NodeFinder {
+ public:
+  NodeFinder(const HalfEdgeMesh& mesh, const Cells& cells, const Boundaries& boundaries)
+      : mesh_(mesh), boundaries_(boundaries), is_node_(mesh.points(), false) {
+    const BorderGraph graph(mesh, cells);
+    graph.for_each_point([&](uint32_t point, const std::vector<uint32_t>& edges) {
+      if (!graph.goes_on(edges)) is_node_[point] = true;
+    });
+  }
+
+  std::vector<bool> run() {
+    for (const std::vector<uint32_t>& boundary : boundaries_) fill_up(boundary);
+    while (part_equal_arcs()) {
+    }
+    return std::move(is_node_);
+  }
+
+ private:
+  // At least three nodes, as far from each other as can be.
+  void fill_up(const std::vector<uint32_t>& boundary) {
+    constexpr size_t fewest = 3;
+    const Outline outline(mesh_, boundary);
+    std::vector<size_t> nodes;
+    for (size_t i = 0; i < boundary.size(); ++i)
+      if (is_node_[mesh_.from(boundary[i])]) nodes.push_back(i);
+    if (nodes.empty()) {
+      nodes.push_back(0);
+      is_node_[mesh_.from(boundary[0])] = true;
+    }
+    while (nodes.size() < fewest) {
+      size_t best = 0;
+      double most = -1;
+      for (size_t i = 0; i < boundary.size(); ++i) {
+        double apart = outline.length;
+        for (const size_t n : nodes) apart = std::min({apart, outline.between(i, n), outline.between(n, i)});
+        if (is_node_[mesh_.from(boundary[i])]) continue;
+        if (apart > most) {
+          most = apart;
+          best = i;
+        }
+      }
+      nodes.push_back(best);
+      is_node_[mesh_.from(boundary[best])] = true;
+    }
+  }
+
+  // Puts a node on one of two arcs that have the same ends. False where there are none.
+  bool part_equal_arcs() {
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> by_ends;  // to the lowest edge of the arc
+    bool parted = false;
+    for (const std::vector<uint32_t>& boundary : boundaries_) {
+      const size_t count = boundary.size();
+      size_t start = 0;
+      while (!is_node_[mesh_.from(boundary[start])]) ++start;
+      for (size_t i = 0; i < count;) {
+        size_t end = i + 1;
+        uint32_t name = mesh_.edge_name(boundary[(start + i) % count]);
+        while (!is_node_[mesh_.from(boundary[(start + end) % count])]) {
+          name = std::min(name, mesh_.edge_name(boundary[(start + end) % count]));
+          ++end;
+        }
+        const auto ends = std::minmax(
+            {mesh_.from(boundary[(start + i) % count]), mesh_.from(boundary[(start + end) % count])});
+        const auto [place, is_new] = by_ends.emplace(ends, name);
+        if (!is_new && place->second != name && end - i > 1) {
+          is_node_[mesh_.from(boundary[(start + (i + end) / 2) % count])] = true;
+          parted = true;
+        }
+        i = end;
+      }
+    }
+    return parted;
+  }
+
+  const HalfEdgeMesh& mesh_;
+  const Boundaries& boundaries_;
+  std::vector<bool> is_node_;
+};
+
+}  // namespace
+
+namespace {
+
+void split(HalfEdgeMesh& mesh, Cells& cells, uint32_t half_edge) {
+  std::vector<HalfEdgeMesh::Halves> halves;
+  mesh.split_edge(half_edge, 0.5, &halves);
+  for (const HalfEdgeMesh::Halves& half : halves) cells.of_face.push_back(cells.of_face[half.face]);
+}
+
+void split_short_boundaries(HalfEdgeMesh& mesh, Cells& cells) {
+  std::vector<size_t> edges(cells.count, 0);
+  for (uint32_t h = 0; h < 3 * mesh.faces(); ++h)
+    if (is_border(mesh, cells, h)) ++edges[cells.of_face[face_of(h)]];
+  // Splitting an edge renames others, so whose turn it is looks for its boundary anew.
+  const std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
+  const uint32_t faces_before = mesh.faces();
+  for (uint32_t cell = 0; cell < cells.count; ++cell) {
+    for (; edges[cell] < fewest_edges; ++edges[cell]) {
+      uint32_t longest = none;
+      const auto consider = [&](uint32_t face) {
+        if (cells.of_face[face] != cell) return;
+        for (uint32_t h = 3 * face; h < 3 * face + 3; ++h)
+          if (is_border(mesh, cells, h) && (longest == none || mesh.length(h) > mesh.length(longest)))
+            longest = h;
+      };
+      for (const uint32_t face : faces[cell]) consider(face);
+      for (uint32_t face = faces_before; face < mesh.faces(); ++face) consider(face);
+      uint32_t h = longest;
+      do {
+        const uint32_t other = cells.of_face[face_of(h)];
+        if (other != cell) ++edges[other];
+        h = mesh.next_on_edge(h);
+      } while (h != longest);
+      split(mesh, cells, longest);
+    }
+  }
+}
+
+void split_chords(HalfEdgeMesh& mesh, Cells& cells) {
+  std::vector<bool> on_border(mesh.points(), false);
+  for (uint32_t h = 0; h < 3 * mesh.faces(); ++h)
+    if (is_border(mesh, cells, h)) on_border[mesh.from(h)] = on_border[mesh.to(h)] = true;
+  // New points are inside cells, so new edges are no chords; but a chord may become an edge of a new face.
+  const auto is_chord = [&](uint32_t h) {
+    return mesh.from(h) < on_border.size() && mesh.to(h) < on_border.size() && on_border[mesh.from(h)] &&
+           on_border[mesh.to(h)] && !is_border(mesh, cells, h);
+  };
+  for (uint32_t h = 0; h < 3 * mesh.faces(); ++h)
+    if (is_chord(h)) split(mesh, cells, h);
+}
+
+}  // namespace
+
+void split_for_boundaries(HalfEdgeMesh& mesh, Cells& cells) {
+  split_short_boundaries(mesh, cells);
+  split_chords(mesh, cells);
+}
+
+Boundaries trace_boundaries(const HalfEdgeMesh& mesh, const Cells& cells) {
+  std::vector<uint32_t> first(cells.count, none);
+  for (uint32_t h = 0; h < 3 * mesh.faces(); ++h) {
+    uint32_t& found = first[cells.of_face[face_of(h)]];
+    if (found == none && is_border(mesh, cells, h)) found = h;
+  }
+  Boundaries boundaries(cells.count);
+  for (uint32_t cell = 0; cell < cells.count; ++cell) {
+    uint32_t h = first[cell];
+    do {
+      boundaries[cell].push_back(h);
+      h = next_on_boundary(mesh, cells, h);
+    } while (h != first[cell]);
+  }
+  return boundaries;
+}
+
+std::vector<bool> find_nodes(const HalfEdgeMesh& mesh, const Cells& cells, const Boundaries& boundaries) {
+  return NodeFinder(mesh, cells, boundaries).run();
+}
+
+}  // namespace lodestone::base_complex

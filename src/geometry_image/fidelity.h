@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// How true a geometry image is to the mesh that it stands for.
+#pragma once
+
+#include "lodestone/geometry_image/atlas.h"
+#include "lodestone/scene/assembly.h"
+#include "lodestone/scene/pose.h"
+
+namespace lodestone::geometry_image {
+
+// Distances in the given pose, in units of the diagonal of the input's bounding box.
+struct Fidelity {
+  double diagonal = 0;                    // in scene units
+  double from_input = 0;                  // the farthest that a point of the input is from the geometry image
+  double from_image = 0;                  // and the other way round
+  double mean = 0, root_mean_square = 0;  // from the input, over its area
+  double hausdorff() const { return from_input > from_image ? from_input : from_image; }
+};
+
+// Measured at all corners and at points spread over both surfaces (see mesh/distance.h).
+Fidelity measure_fidelity(const scene::Scene& scene, const scene::Assembly& assembly, const Atlas& atlas,
+                          const scene::Pose& pose);
+
+}  // namespace lodestone::geometry_image

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/geometry_image/mapped_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "lodestone/base/parallel.h"
+#include "lodestone/base_complex/arc_places.h"
+#include "lodestone/base_complex/base_complex.h"
+#include "lodestone/base_complex/cell_map.h"
+#include "lodestone/geometry_image/chart_profile.h"
+#include "lodestone/geometry_image/chart_sampler.h"
+#include "lodestone/geometry_image/chart_seams.h"
+#include "lodestone/geometry_image/chart_sizes.h"
+#include "lodestone/geometry_image/shape_metrics.h"
+#include "lodestone/scene/pose.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+using base_complex::BaseComplex;
+using base_complex::Cell;
+using base_complex::CellMap;
+using base_complex::CellOptions;
+using base_complex::Cells;
+using base_complex::HalfEdgeMesh;
+using base_complex::NotMappable;
+using base_complex::Rectangle;
+using base_complex::TriangleShape;
+
+// Charts have about this many triangles at least, and a surface about this many charts at most, but for what
+// its shape and its seams demand.
+constexpr uint32_t triangles_a_chart = 100, most_cells = 128;
+// An edge this much longer than a cell's radius is split first: borders of cells follow edges, and along long
+// thin triangles they would be jagged.
+constexpr double longest_edge = 0.35;
+// With Signal::curvature samples lie up to this much closer where the surface bends than where it is flat.
+constexpr double flattest = 0.04, roughest = 0.12;
+
+std::vector<glm::vec3> rest_positions(const scene::Scene& scene, const scene::Assembly& assembly) {
+  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+  return scene::blended_positions(assembly, scene::frame_weights(scene, assembly, rest),
+                                  scene::frame_matrices(scene, assembly, rest));
+}
+
+// Calls body(cell) for all cells side by side; returns those for which it threw NotMappable.
+template <class Body>
+std::vector<uint32_t> for_each_cell(size_t cells, Body body) {
+  std::vector<uint8_t> failed(cells, 0);
+  parallel_for(cells, 1, [&](uint64_t begin, uint64_t end) {
+    for (auto c = static_cast<uint32_t>(begin); c < end; ++c) {
+      try {
+        body(c);
+      } catch (const NotMappable&) {
+        failed[c] = 1;
+      }
+    }
+  });
+  std::vector<uint32_t> list;
+  for (uint32_t c = 0; c < cells; ++c)
+    if (failed[c] != 0) list.push_back(c);
+  return list;
+}
+
+// Of each firm arc how far it is from its samples, with 1, 2, 4 ... segments.
+std::vector<std::vector<double>> errors_of_arcs(const BaseComplex& complex) {
+  constexpr uint64_t arcs_a_task = 16;
+  constexpr uint32_t powers = 9;
+  std::vector<std::vector<double>> errors(complex.arcs.size());
+  parallel_for(complex.arcs.size(), arcs_a_task, [&](uint64_t begin, uint64_t end) {
+    for (auto i = static_cast<uint32_t>(begin); i < end; ++i) {
+      for (uint32_t power = 0; complex.arcs[i].firm && power < powers; ++power)
+        errors[i].push_back(base_complex::arc_error(complex, i, 1u << power));
+    }
+  });
+  return errors;
+}
+
+class ChartMaker {
+ public:
+  ChartMaker(const scene::Scene& scene, const scene::Assembly& assembly, const std::vector<uint32_t>& welded,
+             const ChartSettings& settings, const OnStage& on_stage)
+      : scene_(scene),
+        assembly_(assembly),
+        welded_(welded),
+        settings_(settings),
+        on_stage_(on_stage),
+        positions_(rest_positions(scene, assembly)) {
+    if (settings.all_shapes) metrics_.emplace(scene, assembly);
+  }
+
+  MappedCharts run(std::vector<uint32_t> triangles) {
+    triangles_ = std::move(triangles);
+    budget_ = settings_.texel_budget != 0 ? settings_.texel_budget : default_budget();
+    MappedCharts result;
+    while (!triangles_.empty() && !make(result)) {
+    }
+    result.left_out = std::move(left_out_);
+    std::sort(result.left_out.begin(), result.left_out.end());
+    return result;
+  }
+
+ private:
+  void stage(const char* name) const {
+    if (on_stage_) on_stage_(name);
+  }
+
+  // A texel a triangle is twice as fine as the mesh; exact charts have nine.
+  uint64_t default_budget() const {
+    constexpr uint64_t few = 1u << 14, of_exact = 9;
+    const uint64_t triangles = triangles_.size();
+    return std::min(of_exact * triangles, std::max(few, triangles));
+  }
+
+  // False where something had to be left out, and all begins again without it.
+  bool make(MappedCharts& result) {
+    constexpr int most_rounds = 8;
+    stage("seams");
+    HalfEdgeMesh mesh = make_mesh();
+    mark_seams(scene_, assembly_, triangles_, mesh);
+    CellOptions options;
+    options.cells =
+        static_cast<uint32_t>(std::clamp<size_t>(triangles_.size() / triangles_a_chart, 1, most_cells));
+    double area = 0;
+    for (uint32_t f = 0; f < mesh.faces(); ++f) area += mesh.area(f);
+    if (area > 0) mesh.split_longer_than(longest_edge * base_complex::cell_radius(area, options));
+    stage("cells");
+    Cells cells = grow_cells(mesh, options);
+    for (int round = 0;; ++round) {
+      std::vector<uint32_t> failed = try_cells(mesh, cells, result);
+      if (failed.empty()) return true;
+      for (const uint32_t cell : failed) {
+        if (round == most_rounds || !halve_cell(mesh, cells, cell)) {
+          leave_out(mesh, cells, cell);
+          return false;
+        }
+      }
+      make_discs(mesh, cells);
+    }
+  }
+
+  HalfEdgeMesh make_mesh() const {
+    std::vector<glm::uvec3> corners;
+    corners.reserve(triangles_.size());
+    for (const uint32_t t : triangles_) {
+      const glm::uvec4& triangle = assembly_.triangles[t];
+      corners.emplace_back(welded_[triangle.x], welded_[triangle.y], welded_[triangle.z]);
+    }
+    return HalfEdgeMesh(std::vector<glm::dvec3>(positions_.begin(), positions_.end()), corners);
+  }
+
+  // Charts of the cells; returns the cells that could not be mapped.
+  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, MappedCharts& result) const {
+    stage("complex");
+    const BaseComplex complex = build_complex(mesh, cells);
+    std::vector<std::optional<ChartProfile>> found(complex.cells.size());
+    stage("profiles");
+    const std::vector<uint32_t> failed = profile(complex, found);
+    if (!failed.empty()) return failed;
+    stage("sizes");
+    std::vector<ChartProfile> profiles;
+    for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
+    Need need;
+    if (settings_.signal == Signal::curvature) need = {flattest, roughest, {}};
+    if (metrics_) need.chart_weights = shape_weights(complex);
+    const std::vector<ChartSize> sizes = choose_sizes(complex, profiles, need, budget_);
+    stage("maps");
+    return sample(complex, sizes, result);
+  }
+
+  std::vector<TriangleShape> shapes_of(const BaseComplex& complex, uint32_t cell) const {
+    if (!metrics_) return face_shapes(complex, cell);
+    std::vector<TriangleShape> shapes;
+    for (const uint32_t face : complex.cells[cell].faces)
+      shapes.push_back(metrics_->of_face(complex.mesh, triangles_, face));
+    return shapes;
+  }
+
+  // How much longer each cell is in the shapes that stretch it most.
+  std::vector<double> shape_weights(const BaseComplex& complex) const {
+    std::vector<double> weights(complex.cells.size(), 1.0);
+    for (uint32_t c = 0; c < weights.size(); ++c) {
+      double stretched = 0;
+      for (const TriangleShape& shape : shapes_of(complex, c)) stretched += shape.area;
+      if (complex.cells[c].area > 0) weights[c] = std::sqrt(stretched / complex.cells[c].area);
+    }
+    return weights;
+  }
+
+  std::vector<uint32_t> profile(const BaseComplex& complex,
+                                std::vector<std::optional<ChartProfile>>& found) const {
+    if (settings_.signal == Signal::area) {
+      for (uint32_t c = 0; c < found.size(); ++c) {
+        const glm::dvec2 extent = extent_of(complex, complex.cells[c]);
+        found[c].emplace(extent.x, extent.y);
+      }
+      return {};
+    }
+    const std::vector<std::vector<double>> arc_errors = errors_of_arcs(complex);
+    double area = 0;
+    for (const Cell& cell : complex.cells) area += cell.area;
+    const double spacing = std::sqrt(area / double(budget_));
+    return for_each_cell(found.size(),
+                         [&](uint32_t c) { found[c].emplace(profile_of(complex, c, spacing, arc_errors)); });
+  }
+
+  // What a chart looks like at all resolutions: its map with nothing yet decided, sampled finely.
+  ChartProfile profile_of(const BaseComplex& complex, uint32_t cell, double spacing,
+                          const std::vector<std::vector<double>>& arc_errors) const {
+    constexpr int finer = 2, most = 7;  // powers of two
+    const glm::dvec2 extent = glm::max(extent_of(complex, complex.cells[cell]) / spacing, 1.0);
+    const auto power = [](double quads) {
+      return static_cast<uint32_t>(std::clamp(std::round(std::log2(quads)), 0.0, double(most - finer)));
+    };
+    const ChartPowers powers = {power(extent.x), power(extent.y)};
+    Rectangle rectangle;
+    rectangle.width = 1u << powers.width;
+    rectangle.height = 1u << powers.height;
+    const std::vector<FirmArc> firm = lay_out(complex, complex.cells[cell], arc_errors, rectangle);
+    const CellMap map = map_cell(complex, cell, rectangle, shapes_of(complex, cell), {});
+    const ChartPowers fine = {powers.width + finer, powers.height + finer};
+    std::vector<glm::dvec3> points;
+    for (const FacePoint& p :
+         find_lattice(map, (1u << fine.width) + 1, (1u << fine.height) + 1, std::ldexp(1.0, -finer))) {
+      if (p.face == base_complex::none) throw NotMappable{};
+      const auto& [a, b, c] = map.faces[p.face];
+      const glm::dvec3 sum = complex.mesh.position(map.points[a]) * p.barycentrics.x +
+                             complex.mesh.position(map.points[b]) * p.barycentrics.y +
+                             complex.mesh.position(map.points[c]) * p.barycentrics.z;
+      points.push_back(sum / (p.barycentrics.x + p.barycentrics.y + p.barycentrics.z));
+    }
+    return {fine, std::move(points), firm};
+  }
+
+  // Gives each passage of a cell its share of its side, by length.
+  static std::vector<FirmArc> lay_out(const BaseComplex& complex, const Cell& cell,
+                                      const std::vector<std::vector<double>>& arc_errors,
+                                      Rectangle& rectangle) {
+    constexpr double spread = 1e-4;  // so that no arc vanishes
+    std::vector<FirmArc> firm;
+    for (uint32_t s = 0; s < 4; ++s) {
+      const size_t end = s < 3 ? cell.corners[s + 1] : cell.boundary.size();
+      double length = 0, walked = 0;
+      for (size_t p = cell.corners[s]; p < end; ++p) length += complex.arcs[cell.boundary[p].arc].length;
+      const double even = 1.0 / double(end - cell.corners[s]);
+      for (size_t p = cell.corners[s]; p < end; ++p) {
+        const base_complex::Arc& arc = complex.arcs[cell.boundary[p].arc];
+        const double share = (1 - spread) * (length > 0 ? arc.length / length : even) + spread * even;
+        if (arc.firm) firm.push_back({s, walked, walked + share, arc_errors[cell.boundary[p].arc]});
+        rectangle.segments.push_back(share * (s % 2 == 0 ? rectangle.width : rectangle.height));
+        walked += share;
+      }
+    }
+    return firm;
+  }
+
+  std::vector<uint32_t> sample(const BaseComplex& complex, const std::vector<ChartSize>& sizes,
+                               MappedCharts& result) const {
+    result = {};
+    uint32_t texels = 0;
+    for (const ChartSize& size : sizes) {
+      result.charts.push_back(
+          {texels, size.width() + 1, size.height() + 1, layout::chart_mapped, 0, 0, 0, 0});
+      texels += static_cast<uint32_t>(size.texels());
+    }
+    result.texels.resize(texels);
+    const ChartSampler sampler(complex, assembly_, welded_, triangles_, sizes);
+    std::vector<std::vector<Stretched>> stretch(sizes.size());
+    const std::vector<uint32_t> failed = for_each_cell(sizes.size(), [&](uint32_t c) {
+      const CellMap map = map_cell(complex, c, sampler.rectangle(c), shapes_of(complex, c), {});
+      stretch[c] = stretch_of(map, face_shapes(complex, c));
+      glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
+      for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
+    });
+    for (uint32_t c = 0; c < sizes.size(); ++c) result.repeated_texels += sampler.repeated(c);
+    sum_up(stretch, sizes, result);
+    return failed;
+  }
+
+  struct Stretched {
+    double stretch, area;
+  };
+  static std::vector<Stretched> stretch_of(const CellMap& map, const std::vector<TriangleShape>& rest) {
+    std::vector<Stretched> list;
+    for (size_t f = 0; f < map.faces.size(); ++f) {
+      const auto& [a, b, c] = map.faces[f];
+      if (!(rest[f].area > 0)) continue;
+      list.push_back(
+          {std::sqrt(squared_stretch(rest[f], map.at[b] - map.at[a], map.at[c] - map.at[a])), rest[f].area});
+    }
+    return list;
+  }
+  static void sum_up(const std::vector<std::vector<Stretched>>& charts, const std::vector<ChartSize>& sizes,
+                     MappedCharts& result) {
+    constexpr double most = 0.95;
+    std::vector<Stretched> all;
+    double quads = 0, area = 0, sum = 0, below = 0;
+    for (size_t c = 0; c < charts.size(); ++c) {
+      all.insert(all.end(), charts[c].begin(), charts[c].end());
+      quads += double(sizes[c].width()) * sizes[c].height();
+    }
+    for (const Stretched& s : all) {
+      area += s.area;
+      sum += s.area * s.stretch;
+    }
+    if (!(area > 0)) return;
+    const double scale = std::sqrt(quads / area);
+    std::sort(all.begin(), all.end(), [](const Stretched& a, const Stretched& b) {
+      return a.stretch != b.stretch ? a.stretch < b.stretch : a.area < b.area;
+    });
+    result.mean_stretch = sum / area * scale;
+    for (const Stretched& s : all) {
+      below += s.area;
+      result.high_stretch = s.stretch * scale;
+      if (below >= most * area) break;
+    }
+  }
+
+  // Takes the whole surface that is connected to a cell out of the list of triangles.
+  void leave_out(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t cell) {
+    std::vector<uint32_t> group(mesh.points());
+    std::iota(group.begin(), group.end(), 0u);
+    const auto find = [&](uint32_t p) {
+      while (group[p] != p) p = group[p] = group[group[p]];
+      return p;
+    };
+    for (uint32_t h = 0; h < 3 * mesh.faces(); ++h) group[find(mesh.from(h))] = find(mesh.to(h));
+    const auto face = static_cast<uint32_t>(std::find(cells.of_face.begin(), cells.of_face.end(), cell) -
+                                            cells.of_face.begin());
+    const uint32_t gone = find(mesh.from(3 * face));
+    std::vector<uint32_t> kept;
+    for (const uint32_t t : triangles_) {
+      const bool out = find(welded_[assembly_.triangles[t].x]) == gone;
+      (out ? left_out_ : kept).push_back(t);
+    }
+    triangles_ = std::move(kept);
+  }
+
+  const scene::Scene& scene_;
+  const scene::Assembly& assembly_;
+  const std::vector<uint32_t>& welded_;
+  const ChartSettings& settings_;
+  const OnStage& on_stage_;
+  const std::vector<glm::vec3> positions_;
+  std::optional<ShapeMetrics> metrics_;
+  std::vector<uint32_t> triangles_, left_out_;
+  uint64_t budget_ = 0;
+};
+
+}  // namespace
+
+MappedCharts map_charts(const scene::Scene& scene, const scene::Assembly& assembly,
+                        const std::vector<uint32_t>& welded, std::vector<uint32_t> triangles,
+                        const ChartSettings& settings, const OnStage& on_stage) {
+  return ChartMaker(scene, assembly, welded, settings, on_stage).run(std::move(triangles));
+}
+
+}  // namespace lodestone::geometry_image
