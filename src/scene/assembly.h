@@ -67,5 +67,8 @@ std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assemb
 // pass.
 std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
                                          const std::vector<glm::vec4>& matrices);
+// And the normals, of length 1.
+std::vector<glm::vec3> blended_normals(const Assembly& assembly, const std::vector<float>& weights,
+                                       const std::vector<glm::vec4>& matrices);
 
 }  // namespace lodestone::scene

@@ -15,13 +15,14 @@ struct Rows {
   glm::vec4 r0{0}, r1{0}, r2{0};
 };
 
-glm::vec3 morphed(const Assembly& assembly, const std::vector<float>& weights, uint32_t vertex) {
-  glm::vec3 p = assembly.positions[vertex];
+glm::vec3 morphed(const Assembly& assembly, const std::vector<float>& weights, uint32_t vertex,
+                  const std::vector<glm::vec3>& base, glm::vec3 MorphEntry::*delta) {
+  glm::vec3 sum = base[vertex];
   for (uint32_t i = assembly.first_morph[vertex]; i < assembly.first_morph[vertex + 1]; ++i) {
     const MorphEntry& entry = assembly.morphs[i];
-    p = p + weights[entry.weight] * entry.position;
+    sum = sum + weights[entry.weight] * entry.*delta;
   }
-  return p;
+  return sum;
 }
 
 Rows blended_matrix(const Assembly& assembly, const std::vector<glm::vec4>& matrices, uint32_t vertex) {
@@ -40,8 +41,31 @@ float transformed(const glm::vec4& row, const glm::vec3& p) {
   return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
 }
 
+// By the cofactor matrix, which needs no inverse; its sign is that of the determinant.
+glm::vec3 turned(const Rows& m, const glm::vec3& normal) {
+  const glm::vec3 r0(m.r0), r1(m.r1), r2(m.r2);
+  const glm::vec3 c0 = layout::cross3(r1, r2), c1 = layout::cross3(r2, r0), c2 = layout::cross3(r0, r1);
+  glm::vec3 sum{layout::dot3(c0, normal), layout::dot3(c1, normal), layout::dot3(c2, normal)};
+  if (layout::dot3(r0, c0) < 0.0f) sum = sum * -1.0f;
+  return layout::normalize_or(sum, glm::vec3(0, 0, 1));
+}
+
 void check_size(size_t have, size_t need, const char* what) {
   if (have != need) throw std::invalid_argument(std::string(what) + " are not those of this assembly");
+}
+
+// What `blend` makes of each vertex.
+template <class Blend>
+std::vector<glm::vec3> for_each_vertex(const Assembly& assembly, const std::vector<float>& weights,
+                                       const std::vector<glm::vec4>& matrices, Blend blend) {
+  check_size(weights.size(), assembly.weight_count, "the morph weights");
+  check_size(matrices.size(), 3 * size_t(assembly.matrix_count), "the matrices");
+  constexpr uint64_t grain = 1u << 13;
+  std::vector<glm::vec3> blended(assembly.positions.size());
+  parallel_for(blended.size(), grain, [&](uint64_t begin, uint64_t end) {
+    for (auto v = static_cast<uint32_t>(begin); v < end; ++v) blended[v] = blend(v);
+  });
+  return blended;
 }
 
 }  // namespace
@@ -77,18 +101,19 @@ std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assemb
 
 std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
                                          const std::vector<glm::vec4>& matrices) {
-  check_size(weights.size(), assembly.weight_count, "the morph weights");
-  check_size(matrices.size(), 3 * size_t(assembly.matrix_count), "the matrices");
-  constexpr uint64_t grain = 1u << 13;
-  std::vector<glm::vec3> blended(assembly.positions.size());
-  parallel_for(blended.size(), grain, [&](uint64_t begin, uint64_t end) {
-    for (auto v = static_cast<uint32_t>(begin); v < end; ++v) {
-      const glm::vec3 p = morphed(assembly, weights, v);
-      const Rows m = blended_matrix(assembly, matrices, v);
-      blended[v] = layout::flush_tiny3({transformed(m.r0, p), transformed(m.r1, p), transformed(m.r2, p)});
-    }
+  return for_each_vertex(assembly, weights, matrices, [&](uint32_t v) {
+    const glm::vec3 p = morphed(assembly, weights, v, assembly.positions, &MorphEntry::position);
+    const Rows m = blended_matrix(assembly, matrices, v);
+    return layout::flush_tiny3({transformed(m.r0, p), transformed(m.r1, p), transformed(m.r2, p)});
   });
-  return blended;
+}
+
+std::vector<glm::vec3> blended_normals(const Assembly& assembly, const std::vector<float>& weights,
+                                       const std::vector<glm::vec4>& matrices) {
+  return for_each_vertex(assembly, weights, matrices, [&](uint32_t v) {
+    return turned(blended_matrix(assembly, matrices, v),
+                  morphed(assembly, weights, v, assembly.normals, &MorphEntry::normal));
+  });
 }
 
 }  // namespace lodestone::scene

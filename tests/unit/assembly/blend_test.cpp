@@ -56,6 +56,31 @@ TEST(Blend, AddsDeltasBeforeTheMatrixActs) {
   EXPECT_EQ(assembly.triangles[0], glm::uvec4(0, 1, 2, 0)) << "mirroring keeps the order of corners";
 }
 
+TEST(Blend, TurnsNormalsByTheInverseTransposed) {
+  for (const uint32_t joints : {0u, 6u}) {
+    Scene scene = random_character(50 + joints, 200, 5, joints);
+    scene.nodes[0].scale = {1, 2, -3};  // mirrored; of no effect on a mesh with a skin
+    const Assembly assembly = assemble(scene);
+    const Frame frame = rest_frame(scene, assembly);
+    const std::vector<glm::vec3> normals = blended_normals(assembly, frame.weights, frame.matrices);
+    ASSERT_EQ(normals.size(), assembly.normals.size());
+    for (uint32_t v = 0; v < normals.size(); ++v) {
+      glm::dvec3 normal = assembly.normals[v];
+      for (uint32_t i = assembly.first_morph[v]; i < assembly.first_morph[v + 1]; ++i)
+        normal += double(frame.weights[assembly.morphs[i].weight]) * glm::dvec3(assembly.morphs[i].normal);
+      glm::dmat3 transposed(0);
+      for (uint32_t i = assembly.first_influence[v]; i < assembly.first_influence[v + 1]; ++i) {
+        for (int r = 0; r < 3; ++r) {
+          const glm::vec4& row = frame.matrices[3 * size_t(assembly.influences[i].matrix) + size_t(r)];
+          transposed[r] += double(assembly.influences[i].weight) * glm::dvec3(row);
+        }
+      }
+      const glm::dvec3 expected = glm::normalize(glm::inverse(transposed) * normal);
+      EXPECT_LT(glm::length(expected - glm::dvec3(normals[v])), 1e-4) << v;
+    }
+  }
+}
+
 TEST(Blend, MatchesTheDefinitionInDoublePrecision) {
   for (const uint32_t joints : {0u, 6u}) {
     const Scene scene = random_character(10 + joints, 200, 5, joints);
