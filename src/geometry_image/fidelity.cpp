@@ -1,38 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/fidelity.h"
 
-#include <bit>
 #include <limits>
 #include <vector>
 
-#include "lodestone/base/parallel.h"
-#include "lodestone/geometry_image/charts.h"
+#include "lodestone/geometry_image/texel_values.h"
 #include "lodestone/mesh/distance.h"
 
 namespace lodestone::geometry_image {
 namespace {
-
-constexpr uint64_t texels_a_task = 1u << 14;
 
 struct Triangles {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> corners;
 };
 
-// The texels, as the `rasterise` pass computes them, and the two triangles of each quad.
+// The texels and the two triangles of each quad.
 Triangles image_surface(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions,
                         const Atlas& atlas) {
   Triangles surface;
-  surface.positions.resize(atlas.texel_map.size(), glm::vec3(0));
-  parallel_for(atlas.texel_map.size(), texels_a_task, [&](uint64_t begin, uint64_t end) {
-    for (uint64_t i = begin; i < end; ++i) {
-      const glm::uvec4& texel = atlas.texel_map[i];
-      if (texel.w == 0) continue;
-      const glm::uvec4& t = assembly.triangles[texel.x];
-      const float b1 = std::bit_cast<float>(texel.y), b2 = std::bit_cast<float>(texel.z);
-      surface.positions[i] = positions[t.x] * (1.0f - b1 - b2) + positions[t.y] * b1 + positions[t.z] * b2;
-    }
-  });
+  surface.positions = at_texels(assembly, atlas, positions);
   for (const glm::uvec2& leaf : atlas.leaf_map) {
     if (leaf.x == layout::empty_slot) continue;
     const uint32_t a = leaf.x, b = a + 1, c = a + leaf.y, d = c + 1;
