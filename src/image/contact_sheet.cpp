@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <stdexcept>
-#include <string_view>
 
+#include "lodestone/image/draw_text.h"
 #include "lodestone/image/font.h"
 #include "lodestone/image/image.h"
 
@@ -10,16 +10,8 @@ namespace lodestone::image {
 namespace {
 
 constexpr uint32_t gap = 4;  // pixels around every tile
-constexpr float background = 0.1f, ink = 0.9f;
+constexpr float background = 0.1f;
 constexpr uint32_t largest_scale = 3;
-
-struct Point {
-  uint32_t x = 0, y = 0;
-};
-
-uint32_t text_width(std::string_view text, uint32_t scale) {
-  return text.empty() ? 0 : (uint32_t(text.size()) * (glyph_width + 1) - 1) * scale;
-}
 
 // The largest whole magnification at which every label fits the width of a tile, at least 1.
 uint32_t label_scale(const std::vector<std::string>& labels, uint32_t width) {
@@ -28,20 +20,6 @@ uint32_t label_scale(const std::vector<std::string>& labels, uint32_t width) {
     while (scale > 1 && text_width(label, scale) > width) --scale;
   }
   return scale;
-}
-
-void draw_text(Image& sheet, Point at, std::string_view text, uint32_t scale, uint32_t width) {
-  for (size_t i = 0; i < text.size(); ++i) {
-    const uint32_t left = uint32_t(i) * (glyph_width + 1) * scale;
-    if (left + glyph_width * scale > width) return;
-    for (uint32_t y = 0; y < glyph_height * scale; ++y) {
-      for (uint32_t x = 0; x < glyph_width * scale; ++x) {
-        if (!glyph_ink(text[i], x / scale, y / scale)) continue;
-        const size_t pixel = size_t(at.y + y) * sheet.width + at.x + left + x;
-        for (Channel& channel : sheet.channels) channel.values[pixel] = ink;
-      }
-    }
-  }
 }
 
 void draw_tile(Image& sheet, Point at, const Image& tile) {
