@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "lodestone/app/atlas_image.h"
 #include "lodestone/app/atlas_text.h"
 #include "lodestone/app/baked_scene.h"
 #include "lodestone/app/common_options.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct BakeOptions {
   SceneOptions scene;
-  std::string output;
+  std::string output, atlas_image;
   uint32_t threads = 0;
 };
 
@@ -33,6 +34,8 @@ int run_bake(const BakeOptions& options) {
   check_writable(output);
   if (is_baked(options.scene.scene))
     fail(ExitCode::usage, options.scene.scene, "is baked already; give the scene that it was baked from");
+  const AtlasImageFiles pictures(options.atlas_image);
+  pictures.check(options.scene.scene);
   const ThreadLimit threads(options.threads);
   const scene::Scene scene = load_scene(options.scene);
   const scene::Assembly assembly = scene::assemble(scene);
@@ -42,12 +45,17 @@ int run_bake(const BakeOptions& options) {
   clock.begin("distance");
   const geometry_image::Fidelity fidelity =
       geometry_image::measure_fidelity(scene, assembly, atlas, scene::evaluate(scene, scene::none, 0));
-  clock.end();
   const std::string hash = geometry_image::atlas_hash(scene, assembly, options.scene.atlas);
   geometry_image::save_atlas(output, atlas, record_of(options.scene, output, hash));
+  std::string text = atlas_text(options.output, atlas, fidelity);
+  if (!pictures.empty()) {
+    clock.begin("pictures");
+    text += pictures.write(scene, assembly, atlas);
+  }
+  clock.end();
   for (const std::string& note : atlas.report.notes) log::note(options.scene.scene + ": " + note);
   log::note(fmt::format("{}: {}", options.output, stage_text(clock.stages())));
-  if (log::level() != log::Level::quiet) fmt::print("{}", atlas_text(options.output, atlas, fidelity));
+  if (log::level() != log::Level::quiet) fmt::print("{}", text);
   return int(ExitCode::done);
 }
 
@@ -60,9 +68,11 @@ void add_bake_command(CLI::App& app, std::function<int()>& run) {
   add_path(*command, "-o,--output", "FILE.lode", "The baked file", options->output)->required();
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
+  add_path(*command, "--atlas-image", "NAME.png", atlas_image_help, options->atlas_image);
   add_threads_option(*command, options->threads);
   add_log_options(*command);
   command->footer(
+      std::string(stretch_help) +
       "The file is a scene itself, as long as the one that it was baked from lies in its folder or below.\n"
       "Example: lodestone bake stanford_dragon.ply -o dragon.lode");
   command->callback([options, &run] { run = [options] { return run_bake(*options); }; });
