@@ -25,6 +25,15 @@ struct Front {
   }
 };
 
+struct Far {
+  double cost;
+  uint32_t face;
+  // The other way round: the dearest first.
+  bool operator<(const Far& other) const {
+    return cost != other.cost ? cost < other.cost : face > other.face;
+  }
+};
+
 class Grower {
  public:
   Grower(const HalfEdgeMesh& mesh, const CellOptions& options) : mesh_(mesh), options_(options) {
@@ -132,14 +141,25 @@ class Grower {
 
   // One seed, and another where the region is farthest from all so far, until nothing is too far.
   void seed(const std::vector<uint32_t>& region) {
-    uint32_t farthest = region.front();
-    do {
-      seeds_.push_back(farthest);
-      enter(farthest, static_cast<uint32_t>(seeds_.size() - 1), 0);
+    const auto grow_from = [&](uint32_t face) {
+      seeds_.push_back(face);
+      enter(face, static_cast<uint32_t>(seeds_.size() - 1), 0);
       spread();
-      for (const uint32_t face : region)
-        if (cost_[face] > cost_[farthest]) farthest = face;
-    } while (cost_[farthest] > limit_);
+    };
+    grow_from(region.front());
+    // Faces only come nearer, so what is on top is the farthest where its distance is still true.
+    std::priority_queue<Far> farthest;
+    for (const uint32_t face : region)
+      if (cost_[face] > limit_) farthest.push({cost_[face], face});
+    while (!farthest.empty()) {
+      const Far top = farthest.top();
+      farthest.pop();
+      if (top.cost == cost_[top.face]) {
+        grow_from(top.face);
+      } else if (cost_[top.face] > limit_) {
+        farthest.push({cost_[top.face], top.face});
+      }
+    }
   }
 
   // Moves the region's seeds to the face nearest to the middle of their cells and grows the cells anew.

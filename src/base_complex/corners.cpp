@@ -87,11 +87,14 @@ class CornerChoice {
       for (size_t i = 0; i < most - evenly; ++i) chosen[order[i]] = true;
     }
     // The first point behind each twelfth of the way; with four edges, all four.
+    const double twelfth = outline_.length / evenly;
     double next = 0;
     for (size_t i = 0; i < count; ++i) {
       if (outline_.along[i] < next && count > fewest) continue;
       chosen[i] = true;
-      while (next <= outline_.along[i]) next += outline_.length / evenly;
+      // Of a boundary without length the first point only.
+      if (!(twelfth > 0)) break;
+      while (next <= outline_.along[i]) next += twelfth;
     }
     for (size_t i = 0; i < count; ++i)
       if (chosen[i]) candidates_.push_back(static_cast<uint32_t>(i));

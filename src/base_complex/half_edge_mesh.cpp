@@ -28,6 +28,8 @@ HalfEdgeMesh::HalfEdgeMesh(std::vector<glm::dvec3> positions, std::span<const gl
   for (const glm::uvec3& t : triangles) from_.insert(from_.end(), {t.x, t.y, t.z});
   twin_.assign(half_edges, none);
   ring_.resize(half_edges);
+  ring_back_.resize(half_edges);
+  name_.resize(half_edges);
   barrier_.assign(half_edges, 0);
   triangle_.resize(triangles.size());
   std::iota(triangle_.begin(), triangle_.end(), 0u);
@@ -40,13 +42,13 @@ HalfEdgeMesh::HalfEdgeMesh(std::vector<glm::dvec3> positions, std::span<const gl
   std::sort(edges.begin(), edges.end(), [](const KeyedEdge& a, const KeyedEdge& b) {
     return a.key != b.key ? a.key < b.key : a.half_edge < b.half_edge;
   });
+  std::vector<uint32_t> same;
   for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    for (end = begin; end < edges.size() && edges[end].key == edges[begin].key; ++end) {
-      const bool last = end + 1 == edges.size() || edges[end + 1].key != edges[begin].key;
-      ring_[edges[end].half_edge] = edges[last ? begin : end + 1].half_edge;
-    }
-    const uint32_t first = edges[begin].half_edge, second = ring_[first];
-    if (end - begin == 2 && from(first) != from(second)) connect(first, second);
+    same.clear();
+    for (end = begin; end < edges.size() && edges[end].key == edges[begin].key; ++end)
+      same.push_back(edges[end].half_edge);
+    link(same);
+    if (same.size() == 2 && from(same[0]) != from(same[1])) connect(same[0], same[1]);
   }
 }
 
@@ -55,10 +57,29 @@ void HalfEdgeMesh::connect(uint32_t a, uint32_t b) {
   if (b != none) twin_[b] = a;
 }
 
-uint32_t HalfEdgeMesh::edge_name(uint32_t half_edge) const {
-  uint32_t lowest = half_edge;
-  for (uint32_t h = ring_[half_edge]; h != half_edge; h = ring_[h]) lowest = std::min(lowest, h);
-  return lowest;
+void HalfEdgeMesh::link(const std::vector<uint32_t>& half_edges) {
+  for (size_t i = 0; i < half_edges.size(); ++i) {
+    const uint32_t h = half_edges[i], behind = half_edges[(i + 1) % half_edges.size()];
+    ring_[h] = behind;
+    ring_back_[behind] = h;
+    name_[h] = half_edges.front();
+  }
+}
+
+// Many faces may share an edge: nothing here takes longer for it, but where the edge loses its name.
+void HalfEdgeMesh::replace_in_ring(uint32_t old_one, uint32_t new_one) {
+  const uint32_t before = ring_back_[old_one], behind = ring_[old_one];
+  if (before == old_one) {
+    link({new_one});
+    return;
+  }
+  ring_[before] = ring_back_[behind] = new_one;
+  ring_[new_one] = behind;
+  ring_back_[new_one] = before;
+  name_[new_one] = name_[old_one];
+  if (name_[old_one] != old_one) return;
+  name_[new_one] = new_one;
+  for (uint32_t h = behind; h != new_one; h = ring_[h]) name_[h] = new_one;
 }
 
 void HalfEdgeMesh::make_barrier(uint32_t half_edge) {
@@ -78,18 +99,14 @@ uint32_t HalfEdgeMesh::split_face(uint32_t half_edge, uint32_t point, double fra
   // The edge opposite the first corner now belongs to the new face.
   twin_.insert(twin_.end(), {none, none, none});
   barrier_.insert(barrier_.end(), {barrier_[half_edge], barrier_[after], 0});
-  ring_.insert(ring_.end(), {edge, ring_[after] == after ? moved : ring_[after], after});
+  for (std::vector<uint32_t>* list : {&ring_, &ring_back_, &name_})
+    list->insert(list->end(), {edge, moved, inner});
+  replace_in_ring(after, moved);
   if (twin_[after] != none) connect(moved, twin_[after]);
-  for (uint32_t h = moved; ring_[h] != moved; h = ring_[h]) {
-    if (ring_[h] == after) {
-      ring_[h] = moved;
-      break;
-    }
-  }
   from_[after] = point;
   barycentrics_[after] = middle;
   barrier_[after] = 0;
-  ring_[after] = inner;
+  link({after, inner});
   connect(after, inner);
   twin_[half_edge] = none;
   return taken;
@@ -111,8 +128,8 @@ uint32_t HalfEdgeMesh::split_edge(uint32_t half_edge, double fraction, std::vect
     (along ? near_start : near_end).push_back(h);
     (along ? near_end : near_start).push_back(3 * taken);
   }
-  for (const std::vector<uint32_t>* half : {&near_start, &near_end})
-    for (size_t i = 0; i < half->size(); ++i) ring_[(*half)[i]] = (*half)[(i + 1) % half->size()];
+  link(near_start);
+  link(near_end);
   if (opposite != none) {
     connect(near_start[0], near_start[1]);
     connect(near_end[0], near_end[1]);
@@ -120,7 +137,7 @@ uint32_t HalfEdgeMesh::split_edge(uint32_t half_edge, double fraction, std::vect
   return point;
 }
 
-void HalfEdgeMesh::split_longer_than(double length) {
+void HalfEdgeMesh::split_longer_than(double length, uint32_t most_faces) {
   struct Long {
     double length;
     uint32_t half_edge, from, to;
@@ -135,7 +152,7 @@ void HalfEdgeMesh::split_longer_than(double length) {
   };
   for (uint32_t h = 0; h < from_.size(); ++h)
     if (edge_name(h) == h) consider(h);
-  while (!queue.empty()) {
+  while (!queue.empty() && faces() < most_faces) {
     const Long top = queue.top();
     queue.pop();
     // Splitting beside it may have given the half-edge another edge; that one is in the queue by itself.

@@ -46,8 +46,8 @@ class HalfEdgeMesh {
   uint32_t twin(uint32_t half_edge) const { return twin_[half_edge]; }
   // All half-edges between the same two points, whatever their direction, are a cycle.
   uint32_t next_on_edge(uint32_t half_edge) const { return ring_[half_edge]; }
-  // The first half-edge of that cycle: a name for the edge.
-  uint32_t edge_name(uint32_t half_edge) const;
+  // One half-edge of that cycle, the same for all of them: a name for the edge, until an edge is split.
+  uint32_t edge_name(uint32_t half_edge) const { return name_[half_edge]; }
   double length(uint32_t half_edge) const {
     return glm::distance(positions_[from(half_edge)], positions_[to(half_edge)]);
   }
@@ -70,8 +70,8 @@ class HalfEdgeMesh {
   };
   uint32_t split_edge(uint32_t half_edge, double fraction, std::vector<Halves>* halves = nullptr);
 
-  // Halves edges, the longest first, until none is longer.
-  void split_longer_than(double length);
+  // Halves edges, the longest first, until none is longer or there are `most_faces` or more.
+  void split_longer_than(double length, uint32_t most_faces = none);
 
   double area(uint32_t face) const;
   // Unit length, or zero where the face has no area.
@@ -79,11 +79,13 @@ class HalfEdgeMesh {
   glm::dvec3 centroid(uint32_t face) const;
 
  private:
-  void connect(uint32_t a, uint32_t b);  // twins
+  void connect(uint32_t a, uint32_t b);                // twins
+  void link(const std::vector<uint32_t>& half_edges);  // a ring, named after the first
+  void replace_in_ring(uint32_t old_one, uint32_t new_one);
   uint32_t split_face(uint32_t half_edge, uint32_t point, double fraction);
 
   std::vector<glm::dvec3> positions_;
-  std::vector<uint32_t> from_, twin_, ring_;
+  std::vector<uint32_t> from_, twin_, ring_, ring_back_, name_;
   std::vector<uint8_t> barrier_;
   std::vector<uint32_t> triangle_;
   std::vector<glm::dvec3> barycentrics_;

@@ -52,7 +52,8 @@ class BorderGraph {
   }
 
   bool goes_on(const std::vector<uint32_t>& edges) const {
-    return edges.size() == 2 && beside(edges[0]) == beside(edges[1]);
+    return edges.size() == 2 && mesh_.is_barrier(edges[0]) == mesh_.is_barrier(edges[1]) &&
+           beside(edges[0]) == beside(edges[1]);
   }
 
  private:
@@ -120,7 +121,11 @@ class NodeFinder {
 
   // Puts a node on one of two arcs that have the same ends. False where there are none.
   bool part_equal_arcs() {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> by_ends;  // to the lowest edge of the arc
+    struct Found {
+      uint32_t name;    // of the lowest edge
+      uint32_t middle;  // a point inside, or none
+    };
+    std::map<std::pair<uint32_t, uint32_t>, Found> by_ends;
     bool parted = false;
     for (const std::vector<uint32_t>& boundary : boundaries_) {
       const size_t count = boundary.size();
@@ -135,10 +140,12 @@ class NodeFinder {
         }
         const auto ends = std::minmax(
             {mesh_.from(boundary[(start + i) % count]), mesh_.from(boundary[(start + end) % count])});
-        const auto [place, is_new] = by_ends.emplace(ends, name);
-        if (!is_new && place->second != name && end - i > 1) {
-          is_node_[mesh_.from(boundary[(start + (i + end) / 2) % count])] = true;
-          parted = true;
+        const uint32_t middle = end - i > 1 ? mesh_.from(boundary[(start + (i + end) / 2) % count]) : none;
+        const auto [place, is_new] = by_ends.emplace(ends, Found{name, middle});
+        if (!is_new && place->second.name != name) {
+          // Either will do, but one edge alone has no point inside.
+          const uint32_t node = middle != none ? middle : place->second.middle;
+          if (node != none && !is_node_[node]) is_node_[node] = parted = true;
         }
         i = end;
       }
@@ -155,10 +162,12 @@ class NodeFinder {
 
 namespace {
 
-void split(HalfEdgeMesh& mesh, Cells& cells, uint32_t half_edge) {
+// Returns the new faces, which are the last.
+std::vector<HalfEdgeMesh::Halves> split(HalfEdgeMesh& mesh, Cells& cells, uint32_t half_edge) {
   std::vector<HalfEdgeMesh::Halves> halves;
   mesh.split_edge(half_edge, 0.5, &halves);
   for (const HalfEdgeMesh::Halves& half : halves) cells.of_face.push_back(cells.of_face[half.face]);
+  return halves;
 }
 
 void split_short_boundaries(HalfEdgeMesh& mesh, Cells& cells) {
@@ -166,26 +175,22 @@ void split_short_boundaries(HalfEdgeMesh& mesh, Cells& cells) {
   for (uint32_t h = 0; h < 3 * mesh.faces(); ++h)
     if (is_border(mesh, cells, h)) ++edges[cells.of_face[face_of(h)]];
   // Splitting an edge renames others, so whose turn it is looks for its boundary anew.
-  const std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
-  const uint32_t faces_before = mesh.faces();
+  std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
   for (uint32_t cell = 0; cell < cells.count; ++cell) {
     for (; edges[cell] < fewest_edges; ++edges[cell]) {
       uint32_t longest = none;
-      const auto consider = [&](uint32_t face) {
-        if (cells.of_face[face] != cell) return;
+      for (const uint32_t face : faces[cell])
         for (uint32_t h = 3 * face; h < 3 * face + 3; ++h)
           if (is_border(mesh, cells, h) && (longest == none || mesh.length(h) > mesh.length(longest)))
             longest = h;
-      };
-      for (const uint32_t face : faces[cell]) consider(face);
-      for (uint32_t face = faces_before; face < mesh.faces(); ++face) consider(face);
       uint32_t h = longest;
       do {
         const uint32_t other = cells.of_face[face_of(h)];
         if (other != cell) ++edges[other];
         h = mesh.next_on_edge(h);
       } while (h != longest);
-      split(mesh, cells, longest);
+      for (const HalfEdgeMesh::Halves& half : split(mesh, cells, longest))
+        faces[cells.of_face[half.taken]].push_back(half.taken);
     }
   }
 }

@@ -2,7 +2,9 @@
 #include "lodestone/geometry_image/mapped_charts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "lodestone/base_complex/arc_places.h"
 #include "lodestone/base_complex/base_complex.h"
 #include "lodestone/base_complex/cell_map.h"
+#include "lodestone/geometry_image/chart_errors.h"
 #include "lodestone/geometry_image/chart_profile.h"
 #include "lodestone/geometry_image/chart_sampler.h"
 #include "lodestone/geometry_image/chart_seams.h"
@@ -39,6 +42,14 @@ constexpr uint32_t triangles_a_chart = 100, most_cells = 128;
 constexpr double longest_edge = 0.35;
 // With Signal::curvature samples lie up to this much closer where the surface bends than where it is flat.
 constexpr double flattest = 0.04, roughest = 0.12;
+// Charts farther from the surface than this, in diagonals of all, get more texels at the cost of the others.
+constexpr double tolerated = 0.004;
+constexpr uint32_t most_attempts = 5;
+// Cells with more arcs are split: a side has a segment for each of its arcs at least, so the fewest quads of
+// a cell go with the square of their number.
+constexpr size_t most_arcs = 16;
+// Cells of more faces are split where their map is uneven.
+constexpr size_t worth_splitting = 32;
 
 std::vector<glm::vec3> rest_positions(const scene::Scene& scene, const scene::Assembly& assembly) {
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
@@ -117,7 +128,7 @@ class ChartMaker {
 
   // False where something had to be left out, and all begins again without it.
   bool make(MappedCharts& result) {
-    constexpr int most_rounds = 8;
+    constexpr int crowded_rounds = 8, most_rounds = 16;
     stage("seams");
     HalfEdgeMesh mesh = make_mesh();
     mark_seams(scene_, assembly_, triangles_, mesh);
@@ -130,7 +141,7 @@ class ChartMaker {
     stage("cells");
     Cells cells = grow_cells(mesh, options);
     for (int round = 0;; ++round) {
-      std::vector<uint32_t> failed = try_cells(mesh, cells, result);
+      std::vector<uint32_t> failed = try_cells(mesh, cells, result, round < crowded_rounds);
       if (failed.empty()) return true;
       for (const uint32_t cell : failed) {
         if (round == most_rounds || !halve_cell(mesh, cells, cell)) {
@@ -153,22 +164,99 @@ class ChartMaker {
   }
 
   // Charts of the cells; returns the cells that could not be mapped.
-  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, MappedCharts& result) const {
+  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, MappedCharts& result,
+                                  bool may_split) const {
     stage("complex");
     const BaseComplex complex = build_complex(mesh, cells);
+    std::vector<uint32_t> crowded;
+    for (uint32_t c = 0; c < complex.cells.size(); ++c) {
+      const Cell& cell = complex.cells[c];
+      if (cell.boundary.size() > most_arcs && cell.faces.size() > most_arcs) crowded.push_back(c);
+    }
+    if (!crowded.empty() && may_split) return crowded;
     std::vector<std::optional<ChartProfile>> found(complex.cells.size());
     stage("profiles");
     const std::vector<uint32_t> failed = profile(complex, found);
     if (!failed.empty()) return failed;
-    stage("sizes");
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
     Need need;
     if (settings_.signal == Signal::curvature) need = {flattest, roughest, {}};
     if (metrics_) need.chart_weights = shape_weights(complex);
-    const std::vector<ChartSize> sizes = choose_sizes(complex, profiles, need, budget_);
-    stage("maps");
-    return sample(complex, sizes, result);
+    // The best of some attempts: each gives more texels to what was too far from the surface before.
+    double least = std::numeric_limits<double>::infinity();
+    for (uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
+      stage("sizes");
+      const std::vector<ChartSize> sizes = choose_sizes(complex, profiles, need, budget_);
+      stage("maps");
+      MappedCharts made;
+      const std::vector<uint32_t> unmapped = sample(complex, sizes, made, may_split);
+      if (!unmapped.empty()) return unmapped;
+      stage("errors");
+      const std::vector<double> errors = chart_errors(complex, made);
+      const double most = *std::max_element(errors.begin(), errors.end());
+      if (most < least) {
+        least = most;
+        result = std::move(made);
+      }
+      if (!demand_more(complex, errors, need)) break;
+    }
+    return {};
+  }
+
+  // Raises the weights of charts that are too far from the surface, and of those beside them, for what they
+  // share is as coarse as the coarser. False where there is none.
+  bool demand_more(const BaseComplex& complex, const std::vector<double>& errors, Need& need) const {
+    const double tolerance = tolerated * diagonal();
+    std::vector<double> worst_beside(complex.arcs.size(), 0);
+    for (size_t c = 0; c < errors.size(); ++c)
+      for (const base_complex::Passage& p : complex.cells[c].boundary)
+        worst_beside[p.arc] = std::max(worst_beside[p.arc], errors[c]);
+    if (need.chart_weights.empty()) need.chart_weights.assign(errors.size(), 1);
+    bool raised = false;
+    for (size_t c = 0; c < errors.size(); ++c) {
+      double beside = 0;
+      for (const base_complex::Passage& p : complex.cells[c].boundary)
+        beside = std::max(beside, worst_beside[p.arc]);
+      if (beside <= tolerance) continue;
+      const double own = errors[c] / tolerance;
+      need.chart_weights[c] *=
+          own > 1 ? std::clamp(own, 1.5, 4.0) : std::clamp(std::sqrt(beside / tolerance), 1.2, 2.0);
+      raised = true;
+    }
+    return raised;
+  }
+
+  double diagonal() const {
+    glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
+    for (const uint32_t t : triangles_) {
+      for (glm::length_t k = 0; k < 3; ++k) {
+        lo = glm::min(lo, positions_[assembly_.triangles[t][k]]);
+        hi = glm::max(hi, positions_[assembly_.triangles[t][k]]);
+      }
+    }
+    return glm::distance(glm::dvec3(lo), glm::dvec3(hi));
+  }
+
+  std::vector<double> chart_errors(const BaseComplex& complex, const MappedCharts& result) const {
+    std::vector<glm::vec3> points;
+    points.reserve(result.texels.size());
+    for (const glm::uvec4& texel : result.texels) {
+      const glm::uvec4& t = assembly_.triangles[texel.x];
+      const float b1 = std::bit_cast<float>(texel.y), b2 = std::bit_cast<float>(texel.z);
+      points.push_back(positions_[t.x] * (1.0f - b1 - b2) + positions_[t.y] * b1 + positions_[t.z] * b2);
+    }
+    std::vector<glm::uvec3> corners;
+    for (const uint32_t t : triangles_) corners.emplace_back(assembly_.triangles[t]);
+    std::vector<uint32_t> chart_of_triangle(triangles_.size(), mesh::none);
+    for (uint32_t f = 0; f < complex.mesh.faces(); ++f)
+      chart_of_triangle[complex.mesh.triangle(f)] = complex.cell_of_face[f];
+    const mesh::Surface input = {positions_, corners};
+    const ChartPoints image = {result.charts, points};
+    std::vector<double> errors = errors_from_image(image, mesh::TriangleTree(input));
+    const std::vector<double> others = errors_from_input(input, chart_of_triangle, image);
+    for (size_t c = 0; c < errors.size(); ++c) errors[c] = std::max(errors[c], others[c]);
+    return errors;
   }
 
   std::vector<TriangleShape> shapes_of(const BaseComplex& complex, uint32_t cell) const {
@@ -258,7 +346,7 @@ class ChartMaker {
   }
 
   std::vector<uint32_t> sample(const BaseComplex& complex, const std::vector<ChartSize>& sizes,
-                               MappedCharts& result) const {
+                               MappedCharts& result, bool may_split) const {
     result = {};
     uint32_t texels = 0;
     for (const ChartSize& size : sizes) {
@@ -272,6 +360,8 @@ class ChartMaker {
     const std::vector<uint32_t> failed = for_each_cell(sizes.size(), [&](uint32_t c) {
       const CellMap map = map_cell(complex, c, sampler.rectangle(c), shapes_of(complex, c), {});
       stretch[c] = stretch_of(map, face_shapes(complex, c));
+      if (may_split && complex.cells[c].faces.size() > worth_splitting && uneven(stretch[c], sizes[c]))
+        throw NotMappable{};
       glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
       for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
     });
@@ -292,6 +382,17 @@ class ChartMaker {
           {std::sqrt(squared_stretch(rest[f], map.at[b] - map.at[a], map.at[c] - map.at[a])), rest[f].area});
     }
     return list;
+  }
+  // Whether the samples of a chart are much closer in one place than in another, as they are when a limb was
+  // to be flattened: the root mean square of its stretch, 1 for an isometry.
+  static bool uneven(const std::vector<Stretched>& list, const ChartSize& size) {
+    constexpr double too_uneven = 2.5;
+    double area = 0, sum = 0;
+    for (const Stretched& s : list) {
+      area += s.area;
+      sum += s.area * s.stretch * s.stretch;
+    }
+    return sum * size.width() * size.height() > too_uneven * too_uneven * area * area;
   }
   static void sum_up(const std::vector<std::vector<Stretched>>& charts, const std::vector<ChartSize>& sizes,
                      MappedCharts& result) {
