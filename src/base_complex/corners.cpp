@@ -49,21 +49,21 @@ class CornerChoice {
   static constexpr double right_angle = std::numbers::pi / 2;
   static constexpr size_t fewest = 4;
 
-  // How far the boundary turns round each point and its near neighbours, as measured on the surface (the
-  // turns of a whole disc and its curvature make 2 pi): of a zigzag little, of a corner of a rectangle a
-  // right angle.
+  // How far the boundary turns round each point and its near neighbours, the nearer ones counting more, as
+  // measured on the surface (the turns of a whole disc and its curvature make 2 pi): of a zigzag little, of a
+  // corner of a rectangle a right angle, of the points beside it less.
   void find_bends(const std::vector<double>& angles) {
     constexpr double near = 0.04;
     const size_t count = boundary_.size();
+    const double reach = near * outline_.length;
     bends_.resize(count);
     for (size_t i = 0; i < count; ++i) {
       double bend = 2 * right_angle - angles[i];
-      for (size_t j = (i + 1) % count; j != i && outline_.between(i, j) < near * outline_.length;
-           j = (j + 1) % count)
-        bend += 2 * right_angle - angles[j];
-      for (size_t j = (i + count - 1) % count; j != i && outline_.between(j, i) < near * outline_.length;
+      for (size_t j = (i + 1) % count; j != i && outline_.between(i, j) < reach; j = (j + 1) % count)
+        bend += (2 * right_angle - angles[j]) * (1 - outline_.between(i, j) / reach);
+      for (size_t j = (i + count - 1) % count; j != i && outline_.between(j, i) < reach;
            j = (j + count - 1) % count)
-        bend += 2 * right_angle - angles[j];
+        bend += (2 * right_angle - angles[j]) * (1 - outline_.between(j, i) / reach);
       bends_[i] = bend;
     }
   }
@@ -86,16 +86,23 @@ class CornerChoice {
                 [&](size_t a, size_t b) { return bends_[a] != bends_[b] ? bends_[a] > bends_[b] : a < b; });
       for (size_t i = 0; i < most - evenly; ++i) chosen[order[i]] = true;
     }
-    // The first point behind each twelfth of the way; with four edges, all four.
+    // Of each twelfth of the way the first point or one where the boundary clearly bends more; with four
+    // edges, all four.
+    constexpr double clearly = 1e-6;
     const double twelfth = outline_.length / evenly;
-    double next = 0;
-    for (size_t i = 0; i < count; ++i) {
-      if (outline_.along[i] < next && count > fewest) continue;
-      chosen[i] = true;
-      // Of a boundary without length the first point only.
-      if (!(twelfth > 0)) break;
-      while (next <= outline_.along[i]) next += twelfth;
+    double end = twelfth > 0 ? twelfth : std::numeric_limits<double>::infinity();
+    size_t best = 0;
+    for (size_t i = 1; i < count; ++i) {
+      if (outline_.along[i] < end && count > fewest) {
+        if (bends_[i] > bends_[best] + clearly) best = i;
+        continue;
+      }
+      chosen[best] = true;
+      best = i;
+      while (end <= outline_.along[i]) end += twelfth;
     }
+    chosen[best] = true;
+    choose_sharp(chosen);
     for (size_t i = 0; i < count; ++i)
       if (chosen[i]) candidates_.push_back(static_cast<uint32_t>(i));
     for (size_t i = 0; candidates_.size() < fewest; ++i)
@@ -104,6 +111,22 @@ class CornerChoice {
         candidates_.push_back(static_cast<uint32_t>(i));
       }
     std::sort(candidates_.begin(), candidates_.end());
+  }
+
+  // Corners of the surface that are close to another, and so not the sharpest of their twelfth.
+  void choose_sharp(std::vector<bool>& chosen) const {
+    constexpr size_t most = 4;
+    constexpr double sharp = right_angle / 2;
+    const size_t count = boundary_.size();
+    std::vector<size_t> order;
+    for (size_t i = 0; i < count; ++i) {
+      const bool sharpest =
+          bends_[i] > bends_[(i + 1) % count] && bends_[i] > bends_[(i + count - 1) % count];
+      if (!chosen[i] && sharpest && bends_[i] > sharp) order.push_back(i);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](size_t a, size_t b) { return bends_[a] != bends_[b] ? bends_[a] > bends_[b] : a < b; });
+    for (size_t i = 0; i < std::min(most, order.size()); ++i) chosen[order[i]] = true;
   }
 
   double cost(const std::array<uint32_t, 4>& corners) const {
