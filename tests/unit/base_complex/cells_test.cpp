@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/base_complex/cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lodestone/base/parallel.h"
+#include "surfaces.h"
+
+namespace lodestone::base_complex {
+namespace {
+
+std::vector<CellOptions> all_options() {
+  std::vector<CellOptions> all(4);
+  all[0].cells = 1;
+  all[1].cells = 8;
+  all[2].cells = 100000;
+  all[3].cells = 20;
+  all[3].normal_weight = 0;
+  all[3].relaxations = 0;
+  return all;
+}
+
+void expect_disc(const HalfEdgeMesh& mesh, const Cells& cells, const std::vector<uint32_t>& faces) {
+  const uint32_t cell = cells.of_face[faces.front()];
+  // All faces are reached from the first without leaving the cell or crossing a barrier.
+  std::set<uint32_t> reached = {faces.front()};
+  std::vector<uint32_t> stack = {faces.front()};
+  std::map<uint32_t, uint32_t> border;  // from each point the next one
+  std::set<uint32_t> points;
+  std::set<std::pair<uint32_t, uint32_t>> edges;
+  while (!stack.empty()) {
+    const uint32_t face = stack.back();
+    stack.pop_back();
+    for (uint32_t h = 3 * face; h < 3 * face + 3; ++h) {
+      points.insert(mesh.from(h));
+      edges.insert(std::minmax({mesh.from(h), mesh.to(h)}));
+      const uint32_t twin = mesh.twin(h);
+      if (twin == none || cells.of_face[face_of(twin)] != cell) {
+        EXPECT_TRUE(border.emplace(mesh.from(h), mesh.to(h)).second) << "a boundary comes to a point twice";
+        continue;
+      }
+      EXPECT_FALSE(mesh.is_barrier(h)) << "a barrier is inside";
+      if (!mesh.is_barrier(h) && reached.insert(face_of(twin)).second) stack.push_back(face_of(twin));
+    }
+  }
+  EXPECT_EQ(reached.size(), faces.size());
+  EXPECT_EQ(int64_t(points.size()) - int64_t(edges.size()) + int64_t(faces.size()), 1);
+  ASSERT_FALSE(border.empty());
+  size_t walked = 0;
+  uint32_t at = border.begin()->first;
+  do {
+    ASSERT_TRUE(border.count(at));
+    at = border[at];
+    ++walked;
+  } while (at != border.begin()->first && walked <= border.size());
+  EXPECT_EQ(walked, border.size()) << "more than one boundary";
+}
+
+void expect_discs(const HalfEdgeMesh& mesh, const Cells& cells) {
+  ASSERT_EQ(cells.of_face.size(), mesh.faces());
+  for (const uint32_t cell : cells.of_face) ASSERT_LT(cell, cells.count);
+  for (const std::vector<uint32_t>& faces : faces_by_cell(cells)) {
+    ASSERT_FALSE(faces.empty()) << "a cell without a face";
+    expect_disc(mesh, cells, faces);
+  }
+}
+
+TEST(Cells, AreDiscsWhateverTheSurface) {
+  for (const test::Sample& sample : test::all_samples()) {
+    for (const CellOptions& options : all_options()) {
+      SCOPED_TRACE(sample.name + ", " + std::to_string(options.cells));
+      expect_discs(sample.mesh, grow_cells(sample.mesh, options));
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(Cells, AreAsManyAsTheShapeDemands) {
+  CellOptions one;
+  one.cells = 1;
+  one.normal_weight = 0;
+  EXPECT_EQ(grow_cells(test::single_triangle().mesh(), one).count, 1u);
+  EXPECT_EQ(grow_cells(test::plane(4, 4).mesh(), one).count, 1u);
+  EXPECT_GE(grow_cells(test::sphere(8).mesh(), one).count, 2u);
+  EXPECT_GE(grow_cells(test::annulus(12, 2).mesh(), one).count, 2u);
+  EXPECT_EQ(grow_cells(test::sheets(5).mesh(), one).count, 5u);
+  EXPECT_EQ(grow_cells(test::many_components(10).mesh(), one).count >= 10, true);
+}
+
+TEST(Cells, AreAboutAsManyAsAskedFor) {
+  for (const uint32_t asked : {16u, 64u, 200u}) {
+    CellOptions options;
+    options.cells = asked;
+    const uint32_t found = grow_cells(test::plane(60, 60).mesh(), options).count;
+    EXPECT_GT(2 * found, asked);
+    EXPECT_LT(found, 2 * asked);
+  }
+}
+
+TEST(Cells, AreSmallerWhereASurfaceTurns) {
+  CellOptions options, flat;
+  options.cells = flat.cells = 30;
+  options.normal_weight = 8;
+  flat.normal_weight = 0;
+  const HalfEdgeMesh mesh = test::sphere(30).mesh();
+  EXPECT_GT(grow_cells(mesh, options).count, grow_cells(mesh, flat).count);
+}
+
+TEST(Cells, AreTheSameEveryTimeOnAnyNumberOfThreads) {
+  for (const test::Sample& sample : test::all_samples()) {
+    std::vector<uint32_t> expected;
+    for (const uint32_t threads : {1u, 2u, 7u, 0u, 1u}) {
+      set_thread_count(threads);
+      CellOptions options;
+      options.cells = 12;
+      const std::vector<uint32_t> found = grow_cells(sample.mesh, options).of_face;
+      if (expected.empty()) expected = found;
+      EXPECT_EQ(found, expected) << sample.name << " on " << threads;
+    }
+  }
+  set_thread_count(0);
+}
+
+// Several tasks' worth of faces.
+TEST(Cells, OfALargeSurfaceAreTheSameOnAnyNumberOfThreads) {
+  const HalfEdgeMesh mesh = test::torus(160, 100).mesh();
+  std::vector<uint32_t> expected;
+  for (const uint32_t threads : {1u, 7u}) {
+    set_thread_count(threads);
+    const std::vector<uint32_t> found = grow_cells(mesh, {}).of_face;
+    if (expected.empty()) expected = found;
+    EXPECT_EQ(found, expected);
+  }
+  set_thread_count(0);
+}
+
+TEST(Cells, BecomeDiscsFromAnyStart) {
+  for (const test::Sample& sample : test::all_samples()) {
+    // Everything that is connected without crossing a barrier is one cell.
+    Cells cells;
+    cells.of_face.assign(sample.mesh.faces(), none);
+    for (uint32_t start = 0; start < sample.mesh.faces(); ++start) {
+      if (cells.of_face[start] != none) continue;
+      std::vector<uint32_t> stack = {start};
+      cells.of_face[start] = cells.count;
+      while (!stack.empty()) {
+        const uint32_t face = stack.back();
+        stack.pop_back();
+        for (uint32_t h = 3 * face; h < 3 * face + 3; ++h) {
+          if (sample.mesh.is_barrier(h) || cells.of_face[face_of(sample.mesh.twin(h))] != none) continue;
+          cells.of_face[face_of(sample.mesh.twin(h))] = cells.count;
+          stack.push_back(face_of(sample.mesh.twin(h)));
+        }
+      }
+      ++cells.count;
+    }
+    SCOPED_TRACE(sample.name);
+    make_discs(sample.mesh, cells);
+    expect_discs(sample.mesh, cells);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Cells, CanBeHalvedUntilTheyAreFaces) {
+  const HalfEdgeMesh mesh = test::plane(4, 3).mesh();
+  Cells cells;
+  cells.of_face.assign(mesh.faces(), 0);
+  cells.count = 1;
+  ASSERT_TRUE(halve_cell(mesh, cells, 0));
+  EXPECT_EQ(cells.count, 2u);
+  const std::vector<std::vector<uint32_t>> halves = faces_by_cell(cells);
+  EXPECT_GE(halves[0].size(), 6u);
+  EXPECT_GE(halves[1].size(), 6u);
+  for (uint32_t cell = 0; cell < cells.count; ++cell) {
+    while (halve_cell(mesh, cells, cell)) {
+    }
+  }
+  EXPECT_EQ(cells.count, mesh.faces());
+  expect_discs(mesh, cells);
+}
+
+TEST(Cells, ASplitGivesEachFaceToTheNearerOfTheTwo) {
+  const HalfEdgeMesh mesh = test::plane(8, 1).mesh();
+  Cells cells;
+  cells.of_face.assign(mesh.faces(), 0);
+  cells.count = 1;
+  split_cell(mesh, cells, faces_by_cell(cells)[0], 0, mesh.faces() - 1);
+  for (uint32_t f = 0; f < mesh.faces(); ++f) EXPECT_EQ(cells.of_face[f], f < 8 ? 0u : 1u);
+}
+
+TEST(Cells, HaveTheRadiusOfACircleOfTheirShare) {
+  CellOptions options;
+  options.cells = 4;
+  EXPECT_NEAR(cell_radius(4 * test::pi, options), 1, 1e-15);
+  options.cells = 0;
+  EXPECT_NEAR(cell_radius(test::pi, options), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace lodestone::base_complex
