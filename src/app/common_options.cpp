@@ -80,34 +80,36 @@ void add_atlas_options(CLI::App& app, SceneOptions& options) {
                                                          {"grid", AtlasKind::grid},
                                                          {"exact", AtlasKind::exact},
                                                          {"charts", AtlasKind::charts}};
-  add_value(app, "--atlas", "NAME",
-            "Charts of the geometry image: grid (meshes made of grids), exact (a chart a triangle), charts "
-            "(any mesh, resampled) or auto (default)",
-            [&](const std::string& text) {
-              parse_choice("--atlas", text, {"auto", "grid", "exact", "charts"});
-              options.atlas.kind = kinds.at(text);
-            });
-  CLI::Option* resolution =
-      add_value(app, "--resolution", "N", "Resample to N x N texels in all (with --atlas charts)",
-                [&](const std::string& text) {
-                  const uint64_t side = parse_count("--resolution", text, 2, max_resolution);
-                  options.atlas.charts.texel_budget = side * side;
-                });
+  add_value(
+      app, "--atlas", "NAME",
+      "Charts of the geometry image: grid (meshes made of grids), charts (any mesh, resampled), exact (a "
+      "chart a triangle) or auto (grid where it can be, else charts; default)",
+      [&](const std::string& text) {
+        parse_choice("--atlas", text, {"auto", "grid", "exact", "charts"});
+        options.atlas.kind = kinds.at(text);
+      });
+  CLI::Option* resolution = add_value(
+      app, "--resolution", "N", "With --atlas charts: N x N texels in all", [&](const std::string& text) {
+        const uint64_t side = parse_count("--resolution", text, 2, max_resolution);
+        options.atlas.charts.texel_budget = side * side;
+      });
   add_value(app, "--texel-budget", "N",
-            "Resample to N texels in all (with --atlas charts; default: about one a triangle)",
+            "With --atlas charts: N texels in all (default: about one a triangle)",
             [&](const std::string& text) {
               options.atlas.charts.texel_budget =
                   parse_count("--texel-budget", text, 4, uint64_t(max_resolution) * max_resolution);
             })
       ->excludes(resolution);
-  add_value(app, "--signal", "NAME",
-            "What gets more texels when resampled: area (even spacing, default) or curvature (what bends)",
-            [&](const std::string& text) {
-              parse_choice("--signal", text, {"area", "curvature"});
-              options.atlas.charts.signal = text == "area" ? Signal::area : Signal::curvature;
-            });
-  app.add_flag("--all-shapes", options.atlas.charts.all_shapes,
-               "Resample for what every morph target stretches, not for the rest pose alone");
+  add_value(
+      app, "--signal", "NAME",
+      "With --atlas charts: what gets more texels, area (even spacing, default) or curvature (what bends)",
+      [&](const std::string& text) {
+        parse_choice("--signal", text, {"area", "curvature"});
+        options.atlas.charts.signal = text == "area" ? Signal::area : Signal::curvature;
+      });
+  app.add_flag(
+      "--all-shapes", options.atlas.charts.all_shapes,
+      "With --atlas charts: resample for what every morph target stretches, not for the rest pose alone");
 }
 
 std::vector<std::string> tracer_names() {

@@ -2,6 +2,7 @@
 #include "lodestone/base_complex/half_edge_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <queue>
 #include <utility>
@@ -23,6 +24,8 @@ struct KeyedEdge {
 
 HalfEdgeMesh::HalfEdgeMesh(std::vector<glm::dvec3> positions, std::span<const glm::uvec3> triangles)
     : positions_(std::move(positions)) {
+  for (glm::dvec3& p : positions_)
+    for (glm::length_t axis = 0; axis < 3; ++axis) p[axis] = std::isfinite(p[axis]) ? p[axis] : 0.0;
   const size_t half_edges = 3 * triangles.size();
   from_.reserve(half_edges);
   for (const glm::uvec3& t : triangles) from_.insert(from_.end(), {t.x, t.y, t.z});

@@ -28,7 +28,8 @@ inline uint32_t previous(uint32_t half_edge) {
 class HalfEdgeMesh {
  public:
   // `triangles` list three different points each. Half-edges are twins where exactly two faces share an edge
-  // and run along it in opposite directions.
+  // and run along it in opposite directions. Coordinates that are no finite numbers become 0: a transform may
+  // overflow, and distances must have an order.
   HalfEdgeMesh(std::vector<glm::dvec3> positions, std::span<const glm::uvec3> triangles);
 
   uint32_t faces() const { return static_cast<uint32_t>(triangle_.size()); }

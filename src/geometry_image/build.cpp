@@ -106,10 +106,10 @@ MappedCharts map_surfaces(const scene::Scene& scene, const scene::Assembly& asse
   report.mean_stretch = mapped.mean_stretch;
   report.high_stretch = mapped.high_stretch;
   if (!mapped.left_out.empty()) {
-    report.notes.push_back(
-        fmt::format("{} triangles cannot be resampled and stay as they are: surfaces that no chart can be "
-                    "mapped to; the first is triangle {}.",
-                    mapped.left_out.size(), mapped.left_out.front()));
+    report.notes.push_back(fmt::format(
+        "{} triangles are not resampled and get a chart each: surfaces that fall apart into pieces of "
+        "one or two triangles, or that no chart can be mapped to; the first is triangle {}.",
+        mapped.left_out.size(), mapped.left_out.front()));
   }
   return mapped;
 }

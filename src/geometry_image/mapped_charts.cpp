@@ -140,12 +140,13 @@ class ChartMaker {
     if (area > 0) mesh.split_longer_than(longest_edge * base_complex::cell_radius(area, options));
     stage("cells");
     Cells cells = grow_cells(mesh, options);
+    if (leave_out_soup(mesh, cells)) return false;
     for (int round = 0;; ++round) {
       std::vector<uint32_t> failed = try_cells(mesh, cells, result, round < crowded_rounds);
       if (failed.empty()) return true;
       for (const uint32_t cell : failed) {
         if (round == most_rounds || !halve_cell(mesh, cells, cell)) {
-          leave_out(mesh, cells, cell);
+          leave_out_cell(mesh, cells, cell);
           return false;
         }
       }
@@ -420,8 +421,8 @@ class ChartMaker {
     }
   }
 
-  // Takes the whole surface that is connected to a cell out of the list of triangles.
-  void leave_out(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t cell) {
+  // The points of the mesh in groups that edges connect: of each the name of its group.
+  static std::vector<uint32_t> connected(const HalfEdgeMesh& mesh) {
     std::vector<uint32_t> group(mesh.points());
     std::iota(group.begin(), group.end(), 0u);
     const auto find = [&](uint32_t p) {
@@ -429,15 +430,48 @@ class ChartMaker {
       return p;
     };
     for (uint32_t h = 0; h < 3 * mesh.faces(); ++h) group[find(mesh.from(h))] = find(mesh.to(h));
-    const auto face = static_cast<uint32_t>(std::find(cells.of_face.begin(), cells.of_face.end(), cell) -
-                                            cells.of_face.begin());
-    const uint32_t gone = find(mesh.from(3 * face));
+    for (uint32_t p = 0; p < group.size(); ++p) group[p] = find(p);
+    return group;
+  }
+
+  // Takes whole surfaces that are connected out of the list of triangles: those whose group is marked.
+  void leave_out(const std::vector<uint32_t>& group, const std::vector<bool>& marked) {
     std::vector<uint32_t> kept;
     for (const uint32_t t : triangles_) {
-      const bool out = find(welded_[assembly_.triangles[t].x]) == gone;
+      const bool out = marked[group[welded_[assembly_.triangles[t].x]]];
       (out ? left_out_ : kept).push_back(t);
     }
     triangles_ = std::move(kept);
+  }
+
+  void leave_out_cell(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t cell) {
+    const std::vector<uint32_t> group = connected(mesh);
+    const auto face = static_cast<uint32_t>(std::find(cells.of_face.begin(), cells.of_face.end(), cell) -
+                                            cells.of_face.begin());
+    std::vector<bool> marked(group.size(), false);
+    marked[group[mesh.from(3 * face)]] = true;
+    leave_out(group, marked);
+  }
+
+  // Soup: surfaces of many triangles that fall apart into cells of one or two. False where there is none.
+  bool leave_out_soup(const HalfEdgeMesh& mesh, const Cells& cells) {
+    constexpr uint64_t many = 256;
+    constexpr double triangles_a_cell = 2.5;
+    const std::vector<uint32_t> group = connected(mesh);
+    std::vector<uint64_t> triangles(group.size(), 0), pieces(group.size(), 0);
+    for (const uint32_t t : triangles_) ++triangles[group[welded_[assembly_.triangles[t].x]]];
+    std::vector<bool> counted(cells.count, false);
+    for (uint32_t f = 0; f < cells.of_face.size(); ++f) {
+      if (counted[cells.of_face[f]]) continue;
+      counted[cells.of_face[f]] = true;
+      ++pieces[group[mesh.from(3 * f)]];
+    }
+    std::vector<bool> marked(group.size(), false);
+    for (size_t g = 0; g < group.size(); ++g)
+      marked[g] = triangles[g] >= many && double(triangles[g]) < triangles_a_cell * double(pieces[g]);
+    if (std::find(marked.begin(), marked.end(), true) == marked.end()) return false;
+    leave_out(group, marked);
+    return true;
   }
 
   const scene::Scene& scene_;
