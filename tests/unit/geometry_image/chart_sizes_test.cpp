@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/geometry_image/chart_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lodestone/base_complex/cells.h"
+#include "surfaces.h"
+
+namespace lodestone::geometry_image {
+namespace {
+
+using base_complex::BaseComplex;
+using base_complex::Cell;
+
+BaseComplex complex_of(const base_complex::HalfEdgeMesh& mesh, uint32_t cells = 12) {
+  base_complex::CellOptions options;
+  options.cells = cells;
+  return build_complex(mesh, grow_cells(mesh, options));
+}
+
+// Every side's charts, as wide and high as their cells.
+std::vector<ChartProfile> profiles_of(const BaseComplex& complex) {
+  std::vector<ChartProfile> profiles;
+  for (const Cell& cell : complex.cells) {
+    const glm::dvec2 extent = extent_of(complex, cell);
+    profiles.emplace_back(extent.x, extent.y);
+  }
+  return profiles;
+}
+
+std::vector<ChartSize> sizes_of(const BaseComplex& complex, uint64_t budget, const Need& need = {}) {
+  return choose_sizes(complex, profiles_of(complex), need, budget);
+}
+
+uint64_t texels_of(const std::vector<ChartSize>& sizes) {
+  uint64_t sum = 0;
+  for (const ChartSize& size : sizes) sum += size.texels();
+  return sum;
+}
+
+void expect_sides_are_shared_out(const BaseComplex& complex, const std::vector<ChartSize>& sizes) {
+  ASSERT_EQ(sizes.size(), complex.cells.size());
+  for (size_t c = 0; c < sizes.size(); ++c) {
+    const Cell& cell = complex.cells[c];
+    ASSERT_EQ(sizes[c].segments.size(), cell.boundary.size());
+    EXPECT_EQ(sizes[c].texels(), uint64_t(sizes[c].width() + 1) * (sizes[c].height() + 1));
+    EXPECT_EQ(sizes[c].width() & (sizes[c].width() - 1), 0u);
+    EXPECT_EQ(sizes[c].height() & (sizes[c].height() - 1), 0u);
+    for (size_t s = 0; s < 4; ++s) {
+      const size_t end = s < 3 ? cell.corners[s + 1] : cell.boundary.size();
+      uint64_t sum = 0;
+      for (size_t p = cell.corners[s]; p < end; ++p) {
+        EXPECT_GE(sizes[c].segments[p], 1u);
+        sum += sizes[c].segments[p];
+      }
+      EXPECT_EQ(sum, s % 2 == 0 ? sizes[c].width() : sizes[c].height());
+    }
+  }
+}
+
+TEST(ChartSizes, KeepTheBudgetAndGiveEveryArcASegment) {
+  for (const base_complex::test::Sample& sample : base_complex::test::all_samples()) {
+    SCOPED_TRACE(sample.name);
+    const BaseComplex complex = complex_of(sample.mesh);
+    const uint64_t least = texels_of(sizes_of(complex, 0));
+    expect_sides_are_shared_out(complex, sizes_of(complex, 0));
+    for (const uint64_t factor : {1u, 2u, 5u, 40u}) {
+      const std::vector<ChartSize> sizes = sizes_of(complex, factor * least);
+      expect_sides_are_shared_out(complex, sizes);
+      EXPECT_LE(texels_of(sizes), factor * least);
+      // What is left would not have been enough to double any chart.
+      for (const ChartSize& size : sizes)
+        EXPECT_GT(
+            texels_of(sizes) + uint64_t(size.width()) * size.height() + size.width() + size.height() + 1,
+            factor * least);
+    }
+  }
+}
+
+TEST(ChartSizes, TakeNoMoreThanTheLeastWhereTheBudgetIsLess) {
+  const BaseComplex complex = complex_of(base_complex::test::torus(32, 20).mesh());
+  const uint64_t least = texels_of(sizes_of(complex, 0));
+  EXPECT_EQ(texels_of(sizes_of(complex, least - 1)), least);
+  for (const ChartSize& size : sizes_of(complex, 1)) {
+    EXPECT_LE(size.width(), 64u);
+    EXPECT_LE(size.height(), 64u);
+  }
+}
+
+TEST(ChartSizes, HaveTheSegmentsOfAnArcFromTheCoarsestBesideIt) {
+  for (const base_complex::test::Sample& sample : base_complex::test::all_samples()) {
+    const BaseComplex complex = complex_of(sample.mesh);
+    const std::vector<ChartSize> sizes = sizes_of(complex, 20000);
+    std::vector<std::vector<uint32_t>> beside(complex.arcs.size());
+    for (size_t c = 0; c < sizes.size(); ++c)
+      for (size_t p = 0; p < complex.cells[c].boundary.size(); ++p)
+        beside[complex.cells[c].boundary[p].arc].push_back(sizes[c].segments[p]);
+    const std::vector<uint32_t> segments = arc_segments(complex, sizes);
+    ASSERT_EQ(segments.size(), complex.arcs.size());
+    for (size_t a = 0; a < segments.size(); ++a)
+      EXPECT_EQ(segments[a], *std::min_element(beside[a].begin(), beside[a].end())) << sample.name;
+  }
+}
+
+TEST(ChartSizes, SpreadEvenlyOverTheArea) {
+  const BaseComplex complex = complex_of(base_complex::test::plane(40, 40).mesh(), 16);
+  const std::vector<ChartProfile> profiles = profiles_of(complex);
+  const std::vector<ChartSize> sizes = sizes_of(complex, 1 << 16);
+  double widest = 0, narrowest = 1e9;
+  for (size_t c = 0; c < sizes.size(); ++c) {
+    widest = std::max(widest, profiles[c].spacing(sizes[c].powers));
+    narrowest = std::min(narrowest, profiles[c].spacing(sizes[c].powers));
+  }
+  EXPECT_LT(widest, 4 * narrowest);
+}
+
+TEST(ChartSizes, GiveMoreToAChartOfGreaterWeight) {
+  const BaseComplex complex = complex_of(base_complex::test::plane(40, 40).mesh(), 16);
+  const std::vector<ChartSize> even = sizes_of(complex, 1 << 14);
+  for (size_t heavy = 0; heavy < complex.cells.size(); heavy += 5) {
+    Need need;
+    need.chart_weights.assign(complex.cells.size(), 1);
+    need.chart_weights[heavy] = 8;
+    const std::vector<ChartSize> sizes = sizes_of(complex, 1 << 14, need);
+    EXPECT_GE(sizes[heavy].texels(), 4 * even[heavy].texels());
+    EXPECT_LE(texels_of(sizes), 1u << 14);
+  }
+}
+
+TEST(ChartSizes, EndWhereMortonCodesDo) {
+  const BaseComplex complex = complex_of(base_complex::test::single_triangle().mesh(), 1);
+  ASSERT_EQ(complex.cells.size(), 1u);
+  const std::vector<ChartSize> sizes = sizes_of(complex, uint64_t(1) << 40);
+  EXPECT_EQ(sizes[0].width(), 1u << 14);
+  EXPECT_EQ(sizes[0].height(), 1u << 14);
+}
+
+TEST(ChartSizes, ExtentHasTheCellsAreaAndTheShapeOfItsSides) {
+  base_complex::Cells one;
+  one.of_face.assign(2 * 12 * 3, 0);
+  one.count = 1;
+  const BaseComplex complex = build_complex(base_complex::test::plane(12, 3).mesh(), one);
+  const glm::dvec2 extent = extent_of(complex, complex.cells[0]);
+  EXPECT_NEAR(extent.x * extent.y, 36, 1e-9);
+  EXPECT_NEAR(std::max(extent.x, extent.y) / std::min(extent.x, extent.y), 4, 1e-9);
+}
+
+}  // namespace
+}  // namespace lodestone::geometry_image
