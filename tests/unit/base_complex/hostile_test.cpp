@@ -2,6 +2,9 @@
 // Inputs that nobody would make, but some file will hold: they take no longer than others of their size.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "lodestone/base_complex/base_complex.h"
 #include "surfaces.h"
 
@@ -58,6 +61,14 @@ TEST(Hostile, AllPositionsEqual) {
   const BaseComplex complex = complex_of(s.mesh());
   EXPECT_GE(complex.cells.size(), 2u);
   for (const Cell& cell : complex.cells) EXPECT_GE(cell.boundary.size(), 4u);
+}
+
+TEST(Hostile, CoordinatesThatAreNoNumbers) {
+  for (const double what : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+    test::Surface s = test::sphere(12);
+    for (size_t i = 0; i < s.positions.size(); i += 3) s.positions[i].x = what;
+    for (const Cell& cell : complex_of(s.mesh()).cells) EXPECT_TRUE(std::isfinite(cell.area));
+  }
 }
 
 TEST(Hostile, HugeAndTinyCoordinates) {
