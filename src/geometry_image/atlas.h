@@ -71,10 +71,11 @@ struct Atlas {
 // Told the name of each stage of the work as it begins.
 using OnStage = std::function<void(const char*)>;
 
-// `grid` needs every placed mesh to be made of grids (else Error(usage)); `exact` gives every triangle a chart;
-// `charts` resamples everything, and keeps as exact only what it cannot map; `automatic` takes grid where
-// meshes are made of them, exact for the rest (one atlas can hold charts of all kinds). Throws Error(bad_input) where no triangle is left, a grid is not what
-// scene.h says, or more texels or leaves are needed than there can be.
+// `grid` needs every placed mesh to be made of grids (else Error(usage)); `exact` gives every triangle a
+// chart; `charts` resamples everything, and keeps as exact only what it cannot map; `automatic` takes grid
+// where meshes are made of them, exact for the rest (one atlas can hold charts of all kinds). Throws
+// Error(bad_input) where no triangle is left, a grid is not what scene.h says, or more texels or leaves are
+// needed than there can be.
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
                   const OnStage& on_stage = {});
 
