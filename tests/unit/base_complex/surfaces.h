@@ -251,6 +251,11 @@ inline std::vector<Sample> all_samples() {
   samples.push_back({"genus 3, coarse", plate_with_holes(3, 1).mesh()});
   samples.push_back({"plane", plane(17, 9).mesh()});
   samples.push_back({"plane with holes", plane(25, 21, is_hole).mesh()});
+  // A ring that is open but for one point, where its ends touch.
+  for (const uint32_t fine : {1u, 3u})
+    samples.push_back({"pinched ring", plane(3 * fine, 3 * fine, [=](uint32_t x, uint32_t y) {
+                                         return x / fine == y / fine && x < 2 * fine;
+                                       }).mesh()});
   samples.push_back({"annulus", annulus(24, 6).mesh()});
   samples.push_back({"small annulus", annulus(3, 1).mesh()});
   samples.push_back({"tube", tube(12, 40, 20).mesh()});
