@@ -11,7 +11,7 @@ double texels_used(const geometry_image::Atlas& atlas) {
 }
 
 std::string atlas_text(const std::string& name, const geometry_image::Atlas& atlas,
-                       const geometry_image::Fidelity& fidelity) {
+                       const std::optional<geometry_image::Fidelity>& fidelity) {
   constexpr double percent = 100;
   const geometry_image::AtlasReport& report = atlas.report;
   std::string text = fmt::format("{}: {} charts, {} quads, {} texels\n", name, atlas.charts.size(),
@@ -24,12 +24,13 @@ std::string atlas_text(const std::string& name, const geometry_image::Atlas& atl
     text += fmt::format("  L2 stretch       mean {:.3f}, 95th percentile {:.3f}\n", report.mean_stretch,
                         report.high_stretch);
   }
+  if (!fidelity) return text;
   text += fmt::format(
       "  distance         {:.4f} % from the input, {:.4f} % from the geometry image, Hausdorff {:.4f} %\n",
-      percent * fidelity.from_input, percent * fidelity.from_image, percent * fidelity.hausdorff());
+      percent * fidelity->from_input, percent * fidelity->from_image, percent * fidelity->hausdorff());
   text +=
       fmt::format("                   mean {:.4f} %, root mean square {:.4f} % (of the diagonal, {:.4g})\n",
-                  percent * fidelity.mean, percent * fidelity.root_mean_square, fidelity.diagonal);
+                  percent * fidelity->mean, percent * fidelity->root_mean_square, fidelity->diagonal);
   return text;
 }
 

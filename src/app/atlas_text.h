@@ -2,6 +2,7 @@
 // What an atlas is like, in a few lines for people.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lodestone/geometry_image/atlas.h"
@@ -10,7 +11,7 @@
 namespace lodestone::app {
 
 std::string atlas_text(const std::string& name, const geometry_image::Atlas& atlas,
-                       const geometry_image::Fidelity& fidelity);
+                       const std::optional<geometry_image::Fidelity>& fidelity);
 
 // Of 100 texels of mapped charts, those that do not repeat their neighbour.
 double texels_used(const geometry_image::Atlas& atlas);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "lodestone/app/atlas_image.h"
 #include "lodestone/app/atlas_text.h"
@@ -43,7 +44,7 @@ int run_bake(const BakeOptions& options) {
   const geometry_image::Atlas atlas = geometry_image::build_atlas(
       scene, assembly, options.scene.atlas, [&](const char* stage) { clock.begin(stage); });
   clock.begin("distance");
-  const geometry_image::Fidelity fidelity =
+  const std::optional<geometry_image::Fidelity> fidelity =
       geometry_image::measure_fidelity(scene, assembly, atlas, scene::evaluate(scene, scene::none, 0));
   const std::string hash = geometry_image::atlas_hash(scene, assembly, options.scene.atlas);
   geometry_image::save_atlas(output, atlas, record_of(options.scene, output, hash));
@@ -53,8 +54,8 @@ int run_bake(const BakeOptions& options) {
     text += pictures.write(scene, assembly, atlas);
   }
   clock.end();
+  text += fmt::format("  time             {}\n", stage_text(clock.stages()));
   for (const std::string& note : atlas.report.notes) log::note(options.scene.scene + ": " + note);
-  log::note(fmt::format("{}: {}", options.output, stage_text(clock.stages())));
   if (log::level() != log::Level::quiet) fmt::print("{}", text);
   return int(ExitCode::done);
 }

@@ -100,14 +100,15 @@ Json describe_source(const geometry_image::BakeRecord& record) {
   return json;
 }
 
-// In units of the diagonal of the input's box, in the rest pose.
-Json describe_distance(const geometry_image::Fidelity& fidelity) {
-  return {{"diagonal", fidelity.diagonal},
-          {"from_input", fidelity.from_input},
-          {"from_geometry_image", fidelity.from_image},
-          {"hausdorff", fidelity.hausdorff()},
-          {"mean", fidelity.mean},
-          {"root_mean_square", fidelity.root_mean_square}};
+// In units of the diagonal of the input's box, in the rest pose; null where nothing is resampled.
+Json describe_distance(const std::optional<geometry_image::Fidelity>& fidelity) {
+  if (!fidelity) return nullptr;
+  return {{"diagonal", fidelity->diagonal},
+          {"from_input", fidelity->from_input},
+          {"from_geometry_image", fidelity->from_image},
+          {"hausdorff", fidelity->hausdorff()},
+          {"mean", fidelity->mean},
+          {"root_mean_square", fidelity->root_mean_square}};
 }
 
 Json describe_atlas(const geometry_image::Atlas& atlas) {

@@ -68,12 +68,15 @@ class ArcFinder {
 
 }  // namespace
 
-uint32_t next_on_boundary(const BaseComplex& complex, uint32_t half_edge) {
-  const HalfEdgeMesh& mesh = complex.mesh;
-  const uint32_t cell = complex.cell_of_face[face_of(half_edge)];
-  uint32_t h = next(half_edge);
-  while (mesh.twin(h) != none && complex.cell_of_face[face_of(mesh.twin(h))] == cell) h = next(mesh.twin(h));
-  return h;
+std::array<Side, 4> sides_of(const BaseComplex& complex, const Cell& cell) {
+  std::array<Side, 4> sides;
+  for (size_t s = 0; s < 4; ++s) {
+    sides[s].first = cell.corners[s];
+    sides[s].end = s < 3 ? cell.corners[s + 1] : cell.boundary.size();
+    for (size_t p = sides[s].first; p < sides[s].end; ++p)
+      sides[s].length += complex.arcs[cell.boundary[p].arc].length;
+  }
+  return sides;
 }
 
 BaseComplex build_complex(HalfEdgeMesh mesh, Cells cells) {

@@ -45,8 +45,16 @@ struct BaseComplex {
   std::vector<Cell> cells;
 };
 
-// The half-edge behind another one on the boundary of its cell.
-uint32_t next_on_boundary(const BaseComplex& complex, uint32_t half_edge);
+inline uint32_t next_on_boundary(const BaseComplex& complex, uint32_t half_edge) {
+  return next_on_boundary(complex.mesh, complex.cell_of_face, half_edge);
+}
+
+// A side of a cell's rectangle, from one corner to the next.
+struct Side {
+  size_t first = 0, end = 0;  // of Cell::boundary
+  double length = 0;
+};
+std::array<Side, 4> sides_of(const BaseComplex& complex, const Cell& cell);
 
 // The complex of the given cells, which must be discs as cells.h says. Edges of the mesh are split where a
 // cell needs it.

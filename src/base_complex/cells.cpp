@@ -55,9 +55,7 @@ class Grower {
 
   Cells run() {
     find_regions();
-    double area = 0;
-    for (const double a : areas_) area += a;
-    limit_ = cell_radius(area, options_) * reach_of_a_cell;
+    limit_ = cell_radius(mesh_, options_) * reach_of_a_cell;
     for (const std::vector<uint32_t>& region : regions_) {
       seed(region);
       for (uint32_t i = 0; i < options_.relaxations; ++i) {
@@ -213,10 +211,32 @@ double cell_radius(double area, const CellOptions& options) {
   return std::sqrt(area / (std::max(options.cells, 1u) * std::numbers::pi));
 }
 
+double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options) {
+  double area = 0;
+  glm::dvec3 lo(far_away), hi(-far_away);
+  for (uint32_t f = 0; f < mesh.faces(); ++f) {
+    area += mesh.area(f);
+    for (const uint32_t point : mesh.corners(f)) {
+      lo = glm::min(lo, mesh.position(point));
+      hi = glm::max(hi, mesh.position(point));
+    }
+  }
+  if (mesh.faces() == 0) return 0;
+  return std::max(cell_radius(area, options), 0.5 * glm::distance(lo, hi) / std::max(options.cells, 1u));
+}
+
 Cells grow_cells(const HalfEdgeMesh& mesh, const CellOptions& options) {
   Cells cells = Grower(mesh, options).run();
   make_discs(mesh, cells);
   return cells;
+}
+
+uint32_t next_on_boundary(const HalfEdgeMesh& mesh, const std::vector<uint32_t>& cell_of_face,
+                          uint32_t half_edge) {
+  const uint32_t cell = cell_of_face[face_of(half_edge)];
+  uint32_t h = next(half_edge);
+  while (mesh.twin(h) != none && cell_of_face[face_of(mesh.twin(h))] == cell) h = next(mesh.twin(h));
+  return h;
 }
 
 std::vector<std::vector<uint32_t>> faces_by_cell(const Cells& cells) {

@@ -20,6 +20,9 @@ struct CellOptions {
 
 // The radius of a round cell of a surface of that area.
 double cell_radius(double area, const CellOptions& options);
+// Of a cell of the mesh: that, but where the surface is thin for its extent half the length of a cell if they
+// lay in a row from end to end.
+double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options);
 
 // The cell of each face, 0 .. count - 1, every one used. Each cell is connected, has no barrier inside, a
 // boundary of one loop that comes to no point twice, and Euler characteristic 1.
@@ -39,6 +42,10 @@ bool halve_cell(const HalfEdgeMesh& mesh, Cells& cells, uint32_t cell);
 
 // Splits cells until each is a disc as said above.
 void make_discs(const HalfEdgeMesh& mesh, Cells& cells);
+
+// The half-edge behind another one on the boundary of its cell: round its end, through the cell's faces.
+uint32_t next_on_boundary(const HalfEdgeMesh& mesh, const std::vector<uint32_t>& cell_of_face,
+                          uint32_t half_edge);
 
 // Faces by cell, ascending.
 std::vector<std::vector<uint32_t>> faces_by_cell(const Cells& cells);

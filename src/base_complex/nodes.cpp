@@ -13,14 +13,6 @@ namespace {
 
 constexpr size_t fewest_edges = 4;
 
-// The next half-edge of a cell's boundary: round the end of this one through the faces of the cell.
-uint32_t next_on_boundary(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t half_edge) {
-  const uint32_t cell = cells.of_face[face_of(half_edge)];
-  uint32_t h = next(half_edge);
-  while (mesh.twin(h) != none && cells.of_face[face_of(mesh.twin(h))] == cell) h = next(mesh.twin(h));
-  return h;
-}
-
 bool is_border(const HalfEdgeMesh& mesh, const Cells& cells, uint32_t half_edge) {
   const uint32_t twin = mesh.twin(half_edge);
   return twin == none || cells.of_face[face_of(twin)] != cells.of_face[face_of(half_edge)];
@@ -158,10 +150,6 @@ class NodeFinder {
   std::vector<bool> is_node_;
 };
 
-}  // namespace
-
-namespace {
-
 // Returns the new faces, which are the last.
 std::vector<HalfEdgeMesh::Halves> split(HalfEdgeMesh& mesh, Cells& cells, uint32_t half_edge) {
   std::vector<HalfEdgeMesh::Halves> halves;
@@ -226,7 +214,7 @@ Boundaries trace_boundaries(const HalfEdgeMesh& mesh, const Cells& cells) {
     uint32_t h = first[cell];
     do {
       boundaries[cell].push_back(h);
-      h = next_on_boundary(mesh, cells, h);
+      h = next_on_boundary(mesh, cells.of_face, h);
     } while (h != first[cell]);
   }
   return boundaries;

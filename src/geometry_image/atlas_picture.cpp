@@ -128,8 +128,9 @@ AtlasSurface surface_of(const scene::Scene& scene, const scene::Assembly& assemb
   const std::vector<float> weights = scene::frame_weights(scene, assembly, pose);
   const std::vector<glm::vec4> matrices = scene::frame_matrices(scene, assembly, pose);
   AtlasSurface surface;
-  surface.positions = at_texels(assembly, atlas, scene::blended_positions(assembly, weights, matrices));
-  surface.normals = at_texels(assembly, atlas, scene::blended_normals(assembly, weights, matrices));
+  surface.positions =
+      at_texels(assembly, atlas.texel_map, scene::blended_positions(assembly, weights, matrices));
+  surface.normals = at_texels(assembly, atlas.texel_map, scene::blended_normals(assembly, weights, matrices));
   for (glm::vec3& normal : surface.normals) normal = layout::normalize_or(normal, glm::vec3(0));
   surface.stretch = stretch_of(atlas, surface.positions);
   return surface;

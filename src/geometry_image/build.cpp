@@ -73,9 +73,7 @@ glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& 
 std::vector<glm::vec3> chart_centers(const scene::Scene& scene, const scene::Assembly& assembly,
                                      const Atlas& atlas) {
   constexpr uint64_t grain = 1u << 10;
-  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
-  const std::vector<glm::vec3> positions = scene::blended_positions(
-      assembly, scene::frame_weights(scene, assembly, rest), scene::frame_matrices(scene, assembly, rest));
+  const std::vector<glm::vec3> positions = scene::rest_positions(scene, assembly);
   std::vector<glm::vec3> centers(atlas.charts.size());
   parallel_for(centers.size(), grain, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) centers[i] = center(assembly, positions, atlas, atlas.charts[i]);

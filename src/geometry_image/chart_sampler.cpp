@@ -101,13 +101,6 @@ SurfaceSample ChartSampler::seen(const SurfaceSample& sample, uint32_t half_edge
 }
 
 // All that share an edge or a point take the numbers from one of its triangles, whichever side they are on.
-SurfaceSample ChartSampler::on_edge(uint32_t half_edge, double fraction) const {
-  const uint32_t owner = mesh_.edge_name(half_edge);
-  if (mesh_.from(owner) != mesh_.from(half_edge)) fraction = 1 - fraction;
-  const glm::dvec3 at =
-      mesh_.barycentrics(owner) * (1 - fraction) + mesh_.barycentrics(next(owner)) * fraction;
-  return seen(make_sample(input_triangle(owner), at), half_edge);
-}
 SurfaceSample ChartSampler::at_point(uint32_t half_edge) const {
   const uint32_t owner = point_owner_[mesh_.from(half_edge)];
   return seen(make_sample(input_triangle(owner), mesh_.barycentrics(owner)), half_edge);
@@ -122,11 +115,12 @@ SurfaceSample ChartSampler::on_passage(const Passage& passage, const std::vector
   // A half-edge starts at the near end of the arc's edge, or at its far end where the passage runs backwards.
   if (sample.fraction == 0) return at_point(passage.backwards ? next(h) : h);
   if (sample.fraction == 1) return at_point(passage.backwards ? h : next(h));
-  // Measured from the arc's start for all, so that all have the same number to begin with.
   const uint32_t owner = mesh_.edge_name(h);
   const uint32_t near = complex_.arcs[passage.arc].points[sample.edge];
-  const double of_owner = mesh_.from(owner) == near ? sample.fraction : 1 - sample.fraction;
-  return on_edge(h, mesh_.from(owner) == mesh_.from(h) ? of_owner : 1 - of_owner);
+  const double fraction = mesh_.from(owner) == near ? sample.fraction : 1 - sample.fraction;
+  const glm::dvec3 at =
+      mesh_.barycentrics(owner) * (1 - fraction) + mesh_.barycentrics(next(owner)) * fraction;
+  return seen(make_sample(input_triangle(owner), at), h);
 }
 
 void ChartSampler::sample_border(uint32_t cell, std::vector<SurfaceSample>& samples) const {

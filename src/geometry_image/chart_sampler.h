@@ -51,7 +51,6 @@ class ChartSampler {
   std::array<uint32_t, 3> corners(uint32_t triangle) const;
   uint32_t input_triangle(uint32_t half_edge) const;
   SurfaceSample seen(const SurfaceSample& sample, uint32_t half_edge) const;
-  SurfaceSample on_edge(uint32_t half_edge, double fraction) const;
   SurfaceSample at_point(uint32_t half_edge) const;
   SurfaceSample on_passage(const base_complex::Passage& passage, const std::vector<uint32_t>& run,
                            uint32_t index) const;

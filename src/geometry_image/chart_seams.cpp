@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/chart_seams.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "lodestone/base/disjoint_sets.h"
 
 namespace lodestone::geometry_image {
 namespace {
@@ -89,36 +89,23 @@ class SeamFinder {
   // is part of.
   void keep_long(const std::vector<uint32_t>& creases) {
     constexpr double long_enough = 0.1;
-    std::vector<uint32_t> group(mesh_.points());
-    std::iota(group.begin(), group.end(), 0u);
-    const auto find = [&](uint32_t p) {
-      while (group[p] != p) p = group[p] = group[group[p]];
-      return p;
-    };
-    for (const uint32_t h : creases) group[find(mesh_.from(h))] = find(mesh_.to(h));
+    DisjointSets connected(mesh_.points());
+    for (const uint32_t h : creases) connected.join(mesh_.from(h), mesh_.to(h));
     std::vector<double> length(mesh_.points(), 0);
-    for (const uint32_t h : creases) length[find(mesh_.from(h))] += mesh_.length(h);
+    for (const uint32_t h : creases) length[connected.find(mesh_.from(h))] += mesh_.length(h);
     const std::vector<double> size = sizes();
     for (const uint32_t h : creases)
-      if (length[find(mesh_.from(h))] >= long_enough * size[face_of(h)]) mesh_.make_barrier(h);
+      if (length[connected.find(mesh_.from(h))] >= long_enough * size[face_of(h)]) mesh_.make_barrier(h);
   }
 
   // Of each face the root of the area that is connected to it.
   std::vector<double> sizes() const {
-    std::vector<uint32_t> group(mesh_.faces());
-    std::iota(group.begin(), group.end(), 0u);
-    const auto find = [&](uint32_t f) {
-      while (group[f] != f) f = group[f] = group[group[f]];
-      return f;
-    };
+    DisjointSets connected(mesh_.faces());
     for (uint32_t h = 0; h < 3 * mesh_.faces(); ++h)
-      if (mesh_.twin(h) != base_complex::none) group[find(face_of(h))] = find(face_of(mesh_.twin(h)));
-    std::vector<double> area(mesh_.faces(), 0);
-    for (uint32_t f = 0; f < mesh_.faces(); ++f) area[find(f)] += mesh_.area(f);
-    for (uint32_t f = 0; f < mesh_.faces(); ++f)
-      if (find(f) == f) area[f] = std::sqrt(area[f]);
-    std::vector<double> sizes(mesh_.faces());
-    for (uint32_t f = 0; f < mesh_.faces(); ++f) sizes[f] = area[find(f)];
+      if (mesh_.twin(h) != base_complex::none) connected.join(face_of(h), face_of(mesh_.twin(h)));
+    std::vector<double> area(mesh_.faces(), 0), sizes(mesh_.faces());
+    for (uint32_t f = 0; f < mesh_.faces(); ++f) area[connected.find(f)] += mesh_.area(f);
+    for (uint32_t f = 0; f < mesh_.faces(); ++f) sizes[f] = std::sqrt(area[connected.find(f)]);
     return sizes;
   }
 

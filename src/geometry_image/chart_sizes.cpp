@@ -14,30 +14,15 @@ namespace {
 
 using base_complex::BaseComplex;
 using base_complex::Cell;
+using base_complex::Side;
 
 constexpr uint32_t most_power = 14;  // a chart's sides then fit the layout's Morton codes
 
-struct Side {
-  size_t first = 0, count = 0;  // passages
-  double length = 0;
-};
-
-std::array<Side, 4> sides_of(const BaseComplex& complex, const Cell& cell) {
-  std::array<Side, 4> sides;
-  for (size_t s = 0; s < 4; ++s) {
-    sides[s].first = cell.corners[s];
-    const size_t end = s < 3 ? cell.corners[s + 1] : cell.boundary.size();
-    sides[s].count = end - cell.corners[s];
-    for (size_t p = cell.corners[s]; p < end; ++p)
-      sides[s].length += complex.arcs[cell.boundary[p].arc].length;
-  }
-  return sides;
-}
-
 ChartPowers least_powers(const BaseComplex& complex, const Cell& cell) {
   const std::array<Side, 4> sides = sides_of(complex, cell);
-  const auto power = [](size_t arcs) { return static_cast<uint32_t>(std::bit_width(arcs - 1)); };
-  return {power(std::max(sides[0].count, sides[2].count)), power(std::max(sides[1].count, sides[3].count))};
+  const auto power = [](size_t count) { return static_cast<uint32_t>(std::bit_width(count - 1)); };
+  const auto arcs = [&](size_t s) { return sides[s].end - sides[s].first; };
+  return {power(std::max(arcs(0), arcs(2))), power(std::max(arcs(1), arcs(3)))};
 }
 
 // Shares a side's quads among its passages by length, each at least one.
@@ -45,13 +30,13 @@ void share(const BaseComplex& complex, const Cell& cell, const Side& side, uint3
            std::vector<uint32_t>& segments) {
   uint32_t left = quads;
   double length_left = side.length;
-  for (size_t i = 0; i < side.count; ++i) {
-    const double length = complex.arcs[cell.boundary[side.first + i].arc].length;
-    const auto others = static_cast<uint32_t>(side.count - i - 1);
+  for (size_t p = side.first; p < side.end; ++p) {
+    const double length = complex.arcs[cell.boundary[p].arc].length;
+    const auto others = static_cast<uint32_t>(side.end - p - 1);
     const double wanted = length_left > 0 ? left * length / length_left : double(left) / (others + 1);
-    segments[side.first + i] =
+    segments[p] =
         others == 0 ? left : std::clamp(static_cast<uint32_t>(std::lround(wanted)), 1u, left - others);
-    left -= segments[side.first + i];
+    left -= segments[p];
     length_left -= length;
   }
 }

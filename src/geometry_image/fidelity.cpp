@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/fidelity.h"
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "lodestone/geometry_image/texel_values.h"
@@ -19,7 +20,7 @@ struct Triangles {
 Triangles image_surface(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions,
                         const Atlas& atlas) {
   Triangles surface;
-  surface.positions = at_texels(assembly, atlas, positions);
+  surface.positions = at_texels(assembly, atlas.texel_map, positions);
   for (const glm::uvec2& leaf : atlas.leaf_map) {
     if (leaf.x == layout::empty_slot) continue;
     const uint32_t a = leaf.x, b = a + 1, c = a + leaf.y, d = c + 1;
@@ -29,30 +30,27 @@ Triangles image_surface(const scene::Assembly& assembly, const std::vector<glm::
   return surface;
 }
 
-double diagonal_of(const Triangles& surface) {
-  glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
-  for (const glm::uvec3& t : surface.corners) {
-    for (glm::length_t k = 0; k < 3; ++k) {
-      lo = glm::min(lo, glm::dvec3(surface.positions[t[k]]));
-      hi = glm::max(hi, glm::dvec3(surface.positions[t[k]]));
-    }
-  }
-  return surface.corners.empty() ? 0.0 : glm::distance(lo, hi);
+bool is_finite(const Triangles& surface) {
+  return std::all_of(surface.positions.begin(), surface.positions.end(), [](const glm::vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
 }
 
 }  // namespace
 
-Fidelity measure_fidelity(const scene::Scene& scene, const scene::Assembly& assembly, const Atlas& atlas,
-                          const scene::Pose& pose) {
+std::optional<Fidelity> measure_fidelity(const scene::Scene& scene, const scene::Assembly& assembly,
+                                         const Atlas& atlas, const scene::Pose& pose) {
+  if (atlas.report.mapped_charts == 0) return std::nullopt;
   Triangles input;
   input.positions = scene::blended_positions(assembly, scene::frame_weights(scene, assembly, pose),
                                              scene::frame_matrices(scene, assembly, pose));
+  if (!is_finite(input)) return std::nullopt;
   for (const glm::uvec4& t : assembly.triangles) input.corners.emplace_back(t.x, t.y, t.z);
   const Triangles image = image_surface(assembly, input.positions, atlas);
   const mesh::SymmetricDistance distance =
       mesh::symmetric({input.positions, input.corners}, {image.positions, image.corners});
   Fidelity fidelity;
-  fidelity.diagonal = diagonal_of(input);
+  fidelity.diagonal = mesh::diagonal({input.positions, input.corners});
   const double scale = fidelity.diagonal > 0 ? 1 / fidelity.diagonal : 0;
   fidelity.from_input = distance.forth.maximum * scale;
   fidelity.from_image = distance.back.maximum * scale;

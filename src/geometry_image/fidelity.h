@@ -2,6 +2,8 @@
 // How true a geometry image is to the mesh that it stands for.
 #pragma once
 
+#include <optional>
+
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/scene/assembly.h"
 #include "lodestone/scene/pose.h"
@@ -17,8 +19,10 @@ struct Fidelity {
   double hausdorff() const { return from_input > from_image ? from_input : from_image; }
 };
 
-// Measured at all corners and at points spread over both surfaces (see mesh/distance.h).
-Fidelity measure_fidelity(const scene::Scene& scene, const scene::Assembly& assembly, const Atlas& atlas,
-                          const scene::Pose& pose);
+// Measured at all corners and at points spread over both surfaces (see mesh/distance.h). Nothing where no
+// chart is resampled, for the others keep the input's triangles, or where the pose has a position that is no
+// finite number.
+std::optional<Fidelity> measure_fidelity(const scene::Scene& scene, const scene::Assembly& assembly,
+                                         const Atlas& atlas, const scene::Pose& pose);
 
 }  // namespace lodestone::geometry_image

@@ -2,15 +2,13 @@
 #include "lodestone/geometry_image/mapped_charts.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "lodestone/base/disjoint_sets.h"
 #include "lodestone/base/parallel.h"
-#include "lodestone/base_complex/arc_places.h"
 #include "lodestone/base_complex/base_complex.h"
 #include "lodestone/base_complex/cell_map.h"
 #include "lodestone/geometry_image/chart_errors.h"
@@ -18,8 +16,10 @@
 #include "lodestone/geometry_image/chart_sampler.h"
 #include "lodestone/geometry_image/chart_seams.h"
 #include "lodestone/geometry_image/chart_sizes.h"
+#include "lodestone/geometry_image/chart_stretch.h"
+#include "lodestone/geometry_image/profile_maker.h"
 #include "lodestone/geometry_image/shape_metrics.h"
-#include "lodestone/scene/pose.h"
+#include "lodestone/geometry_image/texel_values.h"
 
 namespace lodestone::geometry_image {
 namespace {
@@ -31,7 +31,6 @@ using base_complex::CellOptions;
 using base_complex::Cells;
 using base_complex::HalfEdgeMesh;
 using base_complex::NotMappable;
-using base_complex::Rectangle;
 using base_complex::TriangleShape;
 
 // Charts have about this many triangles at least, and a surface about this many charts at most, but for what
@@ -48,13 +47,18 @@ constexpr uint32_t most_attempts = 5;
 // Cells with more arcs are split: a side has a segment for each of its arcs at least, so the fewest quads of
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
-// Cells of more faces are split where their map is uneven.
+// Cells of more faces are split where their map is uneven: the root mean square of its stretch is larger, as
+// it is where a limb was to be flattened.
 constexpr size_t worth_splitting = 32;
+constexpr double too_uneven = 2.5;
 
-std::vector<glm::vec3> rest_positions(const scene::Scene& scene, const scene::Assembly& assembly) {
-  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
-  return scene::blended_positions(assembly, scene::frame_weights(scene, assembly, rest),
-                                  scene::frame_matrices(scene, assembly, rest));
+// In the rest pose. A transform may overflow: such a point lies anywhere, but somewhere.
+std::vector<glm::vec3> finite_positions(const scene::Scene& scene, const scene::Assembly& assembly) {
+  std::vector<glm::vec3> positions = scene::rest_positions(scene, assembly);
+  for (glm::vec3& p : positions)
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(p[axis])) p[axis] = 0;
+  return positions;
 }
 
 // Calls body(cell) for all cells side by side; returns those for which it threw NotMappable.
@@ -76,20 +80,6 @@ std::vector<uint32_t> for_each_cell(size_t cells, Body body) {
   return list;
 }
 
-// Of each firm arc how far it is from its samples, with 1, 2, 4 ... segments.
-std::vector<std::vector<double>> errors_of_arcs(const BaseComplex& complex) {
-  constexpr uint64_t arcs_a_task = 16;
-  constexpr uint32_t powers = 9;
-  std::vector<std::vector<double>> errors(complex.arcs.size());
-  parallel_for(complex.arcs.size(), arcs_a_task, [&](uint64_t begin, uint64_t end) {
-    for (auto i = static_cast<uint32_t>(begin); i < end; ++i) {
-      for (uint32_t power = 0; complex.arcs[i].firm && power < powers; ++power)
-        errors[i].push_back(base_complex::arc_error(complex, i, 1u << power));
-    }
-  });
-  return errors;
-}
-
 class ChartMaker {
  public:
   ChartMaker(const scene::Scene& scene, const scene::Assembly& assembly, const std::vector<uint32_t>& welded,
@@ -99,7 +89,7 @@ class ChartMaker {
         welded_(welded),
         settings_(settings),
         on_stage_(on_stage),
-        positions_(rest_positions(scene, assembly)) {
+        positions_(finite_positions(scene, assembly)) {
     if (settings.all_shapes) metrics_.emplace(scene, assembly);
   }
 
@@ -130,14 +120,18 @@ class ChartMaker {
   bool make(MappedCharts& result) {
     constexpr int crowded_rounds = 8, most_rounds = 16;
     stage("seams");
+    corners_.clear();
+    for (const uint32_t t : triangles_) corners_.emplace_back(assembly_.triangles[t]);
+    tree_.emplace(mesh::Surface{positions_, corners_});
     HalfEdgeMesh mesh = make_mesh();
     mark_seams(scene_, assembly_, triangles_, mesh);
     CellOptions options;
     options.cells =
         static_cast<uint32_t>(std::clamp<size_t>(triangles_.size() / triangles_a_chart, 1, most_cells));
-    double area = 0;
-    for (uint32_t f = 0; f < mesh.faces(); ++f) area += mesh.area(f);
-    if (area > 0) mesh.split_longer_than(longest_edge * base_complex::cell_radius(area, options));
+    // However thin and long a surface is, it does not fall apart into more faces than memory holds.
+    const uint32_t most_faces = 2 * mesh.faces() + 20000;
+    const double radius = base_complex::cell_radius(mesh, options);
+    if (radius > 0) mesh.split_longer_than(longest_edge * radius, most_faces);
     stage("cells");
     Cells cells = grow_cells(mesh, options);
     if (leave_out_soup(mesh, cells)) return false;
@@ -196,7 +190,7 @@ class ChartMaker {
       stage("errors");
       const std::vector<double> errors = chart_errors(complex, made);
       const double most = *std::max_element(errors.begin(), errors.end());
-      if (most < least) {
+      if (attempt == 0 || most < least) {
         least = most;
         result = std::move(made);
       }
@@ -208,7 +202,7 @@ class ChartMaker {
   // Raises the weights of charts that are too far from the surface, and of those beside them, for what they
   // share is as coarse as the coarser. False where there is none.
   bool demand_more(const BaseComplex& complex, const std::vector<double>& errors, Need& need) const {
-    const double tolerance = tolerated * diagonal();
+    const double tolerance = tolerated * mesh::diagonal({positions_, corners_});
     std::vector<double> worst_beside(complex.arcs.size(), 0);
     for (size_t c = 0; c < errors.size(); ++c)
       for (const base_complex::Passage& p : complex.cells[c].boundary)
@@ -228,34 +222,14 @@ class ChartMaker {
     return raised;
   }
 
-  double diagonal() const {
-    glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
-    for (const uint32_t t : triangles_) {
-      for (glm::length_t k = 0; k < 3; ++k) {
-        lo = glm::min(lo, positions_[assembly_.triangles[t][k]]);
-        hi = glm::max(hi, positions_[assembly_.triangles[t][k]]);
-      }
-    }
-    return glm::distance(glm::dvec3(lo), glm::dvec3(hi));
-  }
-
-  std::vector<double> chart_errors(const BaseComplex& complex, const MappedCharts& result) const {
-    std::vector<glm::vec3> points;
-    points.reserve(result.texels.size());
-    for (const glm::uvec4& texel : result.texels) {
-      const glm::uvec4& t = assembly_.triangles[texel.x];
-      const float b1 = std::bit_cast<float>(texel.y), b2 = std::bit_cast<float>(texel.z);
-      points.push_back(positions_[t.x] * (1.0f - b1 - b2) + positions_[t.y] * b1 + positions_[t.z] * b2);
-    }
-    std::vector<glm::uvec3> corners;
-    for (const uint32_t t : triangles_) corners.emplace_back(assembly_.triangles[t]);
+  std::vector<double> chart_errors(const BaseComplex& complex, const MappedCharts& made) const {
+    const std::vector<glm::vec3> points = at_texels(assembly_, made.texels, positions_);
     std::vector<uint32_t> chart_of_triangle(triangles_.size(), mesh::none);
     for (uint32_t f = 0; f < complex.mesh.faces(); ++f)
       chart_of_triangle[complex.mesh.triangle(f)] = complex.cell_of_face[f];
-    const mesh::Surface input = {positions_, corners};
-    const ChartPoints image = {result.charts, points};
-    std::vector<double> errors = errors_from_image(image, mesh::TriangleTree(input));
-    const std::vector<double> others = errors_from_input(input, chart_of_triangle, image);
+    const ChartPoints image = {made.charts, points};
+    std::vector<double> errors = errors_from_image(image, *tree_);
+    const std::vector<double> others = errors_from_input({positions_, corners_}, chart_of_triangle, image);
     for (size_t c = 0; c < errors.size(); ++c) errors[c] = std::max(errors[c], others[c]);
     return errors;
   }
@@ -288,62 +262,8 @@ class ChartMaker {
       }
       return {};
     }
-    const std::vector<std::vector<double>> arc_errors = errors_of_arcs(complex);
-    double area = 0;
-    for (const Cell& cell : complex.cells) area += cell.area;
-    const double spacing = std::sqrt(area / double(budget_));
-    return for_each_cell(found.size(),
-                         [&](uint32_t c) { found[c].emplace(profile_of(complex, c, spacing, arc_errors)); });
-  }
-
-  // What a chart looks like at all resolutions: its map with nothing yet decided, sampled finely.
-  ChartProfile profile_of(const BaseComplex& complex, uint32_t cell, double spacing,
-                          const std::vector<std::vector<double>>& arc_errors) const {
-    constexpr int finer = 2, most = 7;  // powers of two
-    const glm::dvec2 extent = glm::max(extent_of(complex, complex.cells[cell]) / spacing, 1.0);
-    const auto power = [](double quads) {
-      return static_cast<uint32_t>(std::clamp(std::round(std::log2(quads)), 0.0, double(most - finer)));
-    };
-    const ChartPowers powers = {power(extent.x), power(extent.y)};
-    Rectangle rectangle;
-    rectangle.width = 1u << powers.width;
-    rectangle.height = 1u << powers.height;
-    const std::vector<FirmArc> firm = lay_out(complex, complex.cells[cell], arc_errors, rectangle);
-    const CellMap map = map_cell(complex, cell, rectangle, shapes_of(complex, cell), {});
-    const ChartPowers fine = {powers.width + finer, powers.height + finer};
-    std::vector<glm::dvec3> points;
-    for (const FacePoint& p :
-         find_lattice(map, (1u << fine.width) + 1, (1u << fine.height) + 1, std::ldexp(1.0, -finer))) {
-      if (p.face == base_complex::none) throw NotMappable{};
-      const auto& [a, b, c] = map.faces[p.face];
-      const glm::dvec3 sum = complex.mesh.position(map.points[a]) * p.barycentrics.x +
-                             complex.mesh.position(map.points[b]) * p.barycentrics.y +
-                             complex.mesh.position(map.points[c]) * p.barycentrics.z;
-      points.push_back(sum / (p.barycentrics.x + p.barycentrics.y + p.barycentrics.z));
-    }
-    return {fine, std::move(points), firm};
-  }
-
-  // Gives each passage of a cell its share of its side, by length.
-  static std::vector<FirmArc> lay_out(const BaseComplex& complex, const Cell& cell,
-                                      const std::vector<std::vector<double>>& arc_errors,
-                                      Rectangle& rectangle) {
-    constexpr double spread = 1e-4;  // so that no arc vanishes
-    std::vector<FirmArc> firm;
-    for (uint32_t s = 0; s < 4; ++s) {
-      const size_t end = s < 3 ? cell.corners[s + 1] : cell.boundary.size();
-      double length = 0, walked = 0;
-      for (size_t p = cell.corners[s]; p < end; ++p) length += complex.arcs[cell.boundary[p].arc].length;
-      const double even = 1.0 / double(end - cell.corners[s]);
-      for (size_t p = cell.corners[s]; p < end; ++p) {
-        const base_complex::Arc& arc = complex.arcs[cell.boundary[p].arc];
-        const double share = (1 - spread) * (length > 0 ? arc.length / length : even) + spread * even;
-        if (arc.firm) firm.push_back({s, walked, walked + share, arc_errors[cell.boundary[p].arc]});
-        rectangle.segments.push_back(share * (s % 2 == 0 ? rectangle.width : rectangle.height));
-        walked += share;
-      }
-    }
-    return firm;
+    const ProfileMaker maker(complex, budget_);
+    return for_each_cell(found.size(), [&](uint32_t c) { found[c] = maker.make(c, shapes_of(complex, c)); });
   }
 
   std::vector<uint32_t> sample(const BaseComplex& complex, const std::vector<ChartSize>& sizes,
@@ -357,80 +277,29 @@ class ChartMaker {
     }
     result.texels.resize(texels);
     const ChartSampler sampler(complex, assembly_, welded_, triangles_, sizes);
-    std::vector<std::vector<Stretched>> stretch(sizes.size());
+    std::vector<ChartStretch> stretch(sizes.size());
     const std::vector<uint32_t> failed = for_each_cell(sizes.size(), [&](uint32_t c) {
       const CellMap map = map_cell(complex, c, sampler.rectangle(c), shapes_of(complex, c), {});
-      stretch[c] = stretch_of(map, face_shapes(complex, c));
-      if (may_split && complex.cells[c].faces.size() > worth_splitting && uneven(stretch[c], sizes[c]))
-        throw NotMappable{};
+      stretch[c] =
+          chart_stretch(map, face_shapes(complex, c), uint64_t(sizes[c].width()) * sizes[c].height());
+      const bool large = complex.cells[c].faces.size() > worth_splitting;
+      if (may_split && large && stretch[c].root_mean_square() > too_uneven) throw NotMappable{};
       glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
       for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
     });
     for (uint32_t c = 0; c < sizes.size(); ++c) result.repeated_texels += sampler.repeated(c);
-    sum_up(stretch, sizes, result);
+    const StretchSummary summary = sum_up(stretch);
+    result.mean_stretch = summary.mean;
+    result.high_stretch = summary.high;
     return failed;
-  }
-
-  struct Stretched {
-    double stretch, area;
-  };
-  static std::vector<Stretched> stretch_of(const CellMap& map, const std::vector<TriangleShape>& rest) {
-    std::vector<Stretched> list;
-    for (size_t f = 0; f < map.faces.size(); ++f) {
-      const auto& [a, b, c] = map.faces[f];
-      if (!(rest[f].area > 0)) continue;
-      list.push_back(
-          {std::sqrt(squared_stretch(rest[f], map.at[b] - map.at[a], map.at[c] - map.at[a])), rest[f].area});
-    }
-    return list;
-  }
-  // Whether the samples of a chart are much closer in one place than in another, as they are when a limb was
-  // to be flattened: the root mean square of its stretch, 1 for an isometry.
-  static bool uneven(const std::vector<Stretched>& list, const ChartSize& size) {
-    constexpr double too_uneven = 2.5;
-    double area = 0, sum = 0;
-    for (const Stretched& s : list) {
-      area += s.area;
-      sum += s.area * s.stretch * s.stretch;
-    }
-    return sum * size.width() * size.height() > too_uneven * too_uneven * area * area;
-  }
-  static void sum_up(const std::vector<std::vector<Stretched>>& charts, const std::vector<ChartSize>& sizes,
-                     MappedCharts& result) {
-    constexpr double most = 0.95;
-    std::vector<Stretched> all;
-    double quads = 0, area = 0, sum = 0, below = 0;
-    for (size_t c = 0; c < charts.size(); ++c) {
-      all.insert(all.end(), charts[c].begin(), charts[c].end());
-      quads += double(sizes[c].width()) * sizes[c].height();
-    }
-    for (const Stretched& s : all) {
-      area += s.area;
-      sum += s.area * s.stretch;
-    }
-    if (!(area > 0)) return;
-    const double scale = std::sqrt(quads / area);
-    std::sort(all.begin(), all.end(), [](const Stretched& a, const Stretched& b) {
-      return a.stretch != b.stretch ? a.stretch < b.stretch : a.area < b.area;
-    });
-    result.mean_stretch = sum / area * scale;
-    for (const Stretched& s : all) {
-      below += s.area;
-      result.high_stretch = s.stretch * scale;
-      if (below >= most * area) break;
-    }
   }
 
   // The points of the mesh in groups that edges connect: of each the name of its group.
   static std::vector<uint32_t> connected(const HalfEdgeMesh& mesh) {
+    DisjointSets sets(mesh.points());
+    for (uint32_t h = 0; h < 3 * mesh.faces(); ++h) sets.join(mesh.from(h), mesh.to(h));
     std::vector<uint32_t> group(mesh.points());
-    std::iota(group.begin(), group.end(), 0u);
-    const auto find = [&](uint32_t p) {
-      while (group[p] != p) p = group[p] = group[group[p]];
-      return p;
-    };
-    for (uint32_t h = 0; h < 3 * mesh.faces(); ++h) group[find(mesh.from(h))] = find(mesh.to(h));
-    for (uint32_t p = 0; p < group.size(); ++p) group[p] = find(p);
+    for (uint32_t p = 0; p < group.size(); ++p) group[p] = sets.find(p);
     return group;
   }
 
@@ -482,6 +351,8 @@ class ChartMaker {
   const std::vector<glm::vec3> positions_;
   std::optional<ShapeMetrics> metrics_;
   std::vector<uint32_t> triangles_, left_out_;
+  std::vector<glm::uvec3> corners_;         // of the triangles
+  std::optional<mesh::TriangleTree> tree_;  // and how far they are
   uint64_t budget_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "lodestone/mesh/surface.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "lodestone/base/parallel.h"
@@ -28,6 +29,17 @@ void check(const Surface& surface) {
       }
     }
   });
+}
+
+double diagonal(const Surface& surface) {
+  glm::dvec3 lo(std::numeric_limits<double>::infinity()), hi = -lo;
+  for (const glm::uvec3& triangle : surface.triangles) {
+    for (glm::length_t k = 0; k < 3; ++k) {
+      lo = glm::min(lo, glm::dvec3(surface.positions[triangle[k]]));
+      hi = glm::max(hi, glm::dvec3(surface.positions[triangle[k]]));
+    }
+  }
+  return surface.triangles.empty() ? 0.0 : glm::distance(lo, hi);
 }
 
 }  // namespace lodestone::mesh

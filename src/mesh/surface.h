@@ -23,4 +23,7 @@ struct Surface {
 // Throws what is said above.
 void check(const Surface& surface);
 
+// Of the box round the corners of all triangles; 0 where there is none.
+double diagonal(const Surface& surface);
+
 }  // namespace lodestone::mesh

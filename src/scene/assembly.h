@@ -67,6 +67,8 @@ std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assemb
 // pass.
 std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
                                          const std::vector<glm::vec4>& matrices);
+// The same in the rest pose: no animation, the scene's own weights.
+std::vector<glm::vec3> rest_positions(const Scene& scene, const Assembly& assembly);
 // And the normals, of length 1.
 std::vector<glm::vec3> blended_normals(const Assembly& assembly, const std::vector<float>& weights,
                                        const std::vector<glm::vec4>& matrices);

@@ -108,6 +108,12 @@ std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::ve
   });
 }
 
+std::vector<glm::vec3> rest_positions(const Scene& scene, const Assembly& assembly) {
+  const Pose rest = evaluate(scene, none, 0);
+  return blended_positions(assembly, frame_weights(scene, assembly, rest),
+                           frame_matrices(scene, assembly, rest));
+}
+
 std::vector<glm::vec3> blended_normals(const Assembly& assembly, const std::vector<float>& weights,
                                        const std::vector<glm::vec4>& matrices) {
   return for_each_vertex(assembly, weights, matrices, [&](uint32_t v) {

@@ -7,10 +7,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "lodestone/base/disjoint_sets.h"
 #include "lodestone/scene/first_use.h"
 
 namespace lodestone::scene {
@@ -20,29 +20,6 @@ namespace {
 uint32_t bits_of(float coordinate) {
   return std::bit_cast<uint32_t>(coordinate == 0 ? 0.0f : coordinate);
 }
-
-// Sets of corners. The lowest corner of a set stands for it.
-class CornerSets {
- public:
-  explicit CornerSets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  uint32_t find(uint32_t corner) {
-    while (parent_[corner] != corner) {
-      parent_[corner] = parent_[parent_[corner]];
-      corner = parent_[corner];
-    }
-    return corner;
-  }
-
-  void join(uint32_t a, uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 uint32_t next_corner(uint32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
@@ -166,7 +143,7 @@ class CreasedMeshBuilder {
 
   std::span<const glm::vec3> corners_;
   double least_cosine_;
-  CornerSets sets_;
+  DisjointSets sets_;                  // of corners
   std::vector<uint32_t> position_of_;  // of each corner, equal for equal positions
   size_t position_count_ = 0;
   std::vector<glm::dvec3> facet_normals_;  // unit, or zero for a triangle without an area

@@ -198,5 +198,15 @@ TEST(Cells, HaveTheRadiusOfACircleOfTheirShare) {
   EXPECT_NEAR(cell_radius(test::pi, options), 1, 1e-15);
 }
 
+TEST(Cells, OfAThinSurfaceAreAsLongAsInARow) {
+  const HalfEdgeMesh needle({{0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}}, std::vector<glm::uvec3>{{0, 1, 2}});
+  CellOptions options;
+  options.cells = 1;
+  EXPECT_NEAR(cell_radius(needle, options), 0.5, 1e-12);
+  options.cells = 4;
+  EXPECT_NEAR(cell_radius(needle, options), 0.125, 1e-12);
+  EXPECT_LE(grow_cells(needle, options).count, 4u);
+}
+
 }  // namespace
 }  // namespace lodestone::base_complex

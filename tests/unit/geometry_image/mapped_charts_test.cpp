@@ -48,7 +48,7 @@ struct Made {
   explicit Made(const scene::Scene& of_scene, const AtlasSettings& settings = AtlasKind::charts)
       : scene(of_scene), assembly(scene::assemble(scene)), atlas(build_atlas(scene, assembly, settings)) {
     EXPECT_EQ(find_fault(atlas), "");
-    points = at_texels(assembly, atlas, assembly.positions);
+    points = at_texels(assembly, atlas.texel_map, assembly.positions);
     for (size_t i = 0; i < points.size(); ++i)
       EXPECT_TRUE(atlas.texel_map[i].w == 0 ||
                   (std::isfinite(points[i].x) && std::isfinite(points[i].y) && std::isfinite(points[i].z)));
@@ -251,6 +251,16 @@ TEST(MappedCharts, OfFewTrianglesHaveTheirCorners) {
   }
   EXPECT_EQ(Made(one).euler_characteristic(), 1);
   EXPECT_EQ(Made(two).euler_characteristic(), 1);
+}
+
+// Its area says nothing about how long it is: splitting its edges by that had no end.
+TEST(MappedCharts, OfANeedleAreFew) {
+  shapes::Surface needle;
+  for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0.5, 1e-9, 0)})
+    needle.add(p);
+  needle.triangles.emplace_back(0, 1, 2);
+  const Made made(needle, settings_of(1 << 12));
+  EXPECT_LE(made.atlas.charts.size(), 4u);
 }
 
 TEST(MappedCharts, EndWherePartsDo) {
