@@ -2,6 +2,7 @@
 #include "lodestone/base_complex/arc_places.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 namespace lodestone::base_complex {
@@ -10,7 +11,8 @@ namespace {
 // An arc as a curve by distance.
 class Curve {
  public:
-  Curve(const HalfEdgeMesh& mesh, const Arc& arc) : mesh_(mesh), points_(arc.points) {
+  Curve(const BaseComplex& complex, const Arc& arc)
+      : mesh_(complex.mesh), normals_(complex.normals), points_(arc.points), firm_(arc.firm) {
     along_.push_back(0);
     for (size_t i = 1; i < points_.size(); ++i)
       along_.push_back(along_.back() + glm::distance(position(i - 1), position(i)));
@@ -34,7 +36,8 @@ class Curve {
     return position(i - 1) * (1 - t) + position(i) * t;
   }
 
-  // The point between two places that is farthest from the chord between them, and how far it is.
+  // The point between two places that is farthest from the chord between them, and how far it is. Where the
+  // arc is not firm only what is across the surface counts: along it the chord may lie as it will.
   struct Farthest {
     double distance = 0;
     size_t point = 0;
@@ -47,7 +50,8 @@ class Curve {
     for (size_t p = first; p < last; ++p) {
       const glm::dvec3 from_a = position(p) - a;
       const double t = length2 > 0 ? std::clamp(glm::dot(from_a, chord) / length2, 0.0, 1.0) : 0.0;
-      const double distance = glm::length(from_a - t * chord);
+      const glm::dvec3 off = from_a - t * chord;
+      const double distance = firm_ ? glm::length(off) : std::abs(glm::dot(off, normals_[points_[p]]));
       if (distance > found.distance) found = {distance, p};
     }
     return found;
@@ -57,7 +61,9 @@ class Curve {
   const glm::dvec3& position(size_t i) const { return mesh_.position(points_[i]); }
 
   const HalfEdgeMesh& mesh_;
+  const std::vector<glm::dvec3>& normals_;
   const std::vector<uint32_t>& points_;
+  bool firm_;
   std::vector<double> along_;
 };
 
@@ -88,9 +94,8 @@ std::vector<double> bends(const Curve& curve, uint32_t most, double near_enough)
 }
 
 std::vector<double> place_samples(const Curve& curve, bool firm, uint32_t segments) {
-  constexpr double near_enough = 0.02;  // of the even spacing
-  std::vector<double> fixed = {0, curve.length()};
-  if (firm) fixed = bends(curve, segments + 1, near_enough * curve.length() / segments);
+  const double near_enough = firm ? 0.02 : 0.15;  // of the even spacing
+  const std::vector<double> fixed = bends(curve, segments + 1, near_enough * curve.length() / segments);
   // What is left over goes where gaps are longest.
   const size_t gaps = fixed.size() - 1;
   std::vector<uint32_t> parts(gaps, 1);
@@ -112,11 +117,11 @@ std::vector<double> place_samples(const Curve& curve, bool firm, uint32_t segmen
 }  // namespace
 
 std::vector<double> arc_places(const BaseComplex& complex, uint32_t arc, uint32_t segments) {
-  return place_samples(Curve(complex.mesh, complex.arcs[arc]), complex.arcs[arc].firm, segments);
+  return place_samples(Curve(complex, complex.arcs[arc]), complex.arcs[arc].firm, segments);
 }
 
 double arc_error(const BaseComplex& complex, uint32_t arc, uint32_t segments) {
-  const Curve curve(complex.mesh, complex.arcs[arc]);
+  const Curve curve(complex, complex.arcs[arc]);
   const std::vector<double> places = place_samples(curve, complex.arcs[arc].firm, segments);
   double most = 0;
   for (size_t i = 0; i + 1 < places.size(); ++i)

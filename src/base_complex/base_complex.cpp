@@ -66,6 +66,19 @@ class ArcFinder {
   std::vector<uint32_t> arc_of_edge_;  // by the edge's name
 };
 
+std::vector<glm::dvec3> point_normals(const HalfEdgeMesh& mesh) {
+  std::vector<glm::dvec3> normals(mesh.points(), glm::dvec3(0));
+  for (uint32_t face = 0; face < mesh.faces(); ++face) {
+    const glm::dvec3 weighted = mesh.normal(face) * mesh.area(face);
+    for (const uint32_t point : mesh.corners(face)) normals[point] += weighted;
+  }
+  for (glm::dvec3& normal : normals) {
+    const double length = glm::length(normal);
+    normal = length > 0 ? normal / length : glm::dvec3(0);
+  }
+  return normals;
+}
+
 }  // namespace
 
 std::array<Side, 4> sides_of(const BaseComplex& complex, const Cell& cell) {
@@ -88,6 +101,7 @@ BaseComplex build_complex(HalfEdgeMesh mesh, Cells cells) {
       choose_corners(complex.mesh, cells, boundaries, is_node);
   complex.cells.resize(cells.count);
   ArcFinder(complex, boundaries, is_node).run(corners);
+  complex.normals = point_normals(complex.mesh);
   complex.cell_of_face = std::move(cells.of_face);
   for (uint32_t face = 0; face < complex.cell_of_face.size(); ++face) {
     Cell& cell = complex.cells[complex.cell_of_face[face]];

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct Cell {
 struct BaseComplex {
   explicit BaseComplex(HalfEdgeMesh surface) : mesh(std::move(surface)) {}
   HalfEdgeMesh mesh;
+  std::vector<glm::dvec3> normals;  // of the points: unit length, or zero
   std::vector<uint32_t> cell_of_face;
   std::vector<Arc> arcs;
   std::vector<Cell> cells;

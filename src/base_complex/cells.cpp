@@ -50,6 +50,9 @@ class Grower {
     });
     for (int i = 0; i < smoothings; ++i) smooth_normals();
     cost_.assign(faces, far_away);
+    reached_ = centroids_;
+    is_thin_.resize(faces);
+    for (uint32_t f = 0; f < faces; ++f) is_thin_[f] = is_thin(f);
     seed_of_.assign(faces, none);
   }
 
@@ -73,6 +76,13 @@ class Grower {
   // The farthest face of a round cell is this many radii of the mean cell away: cells are no discs, and
   // farthest-point seeds leave some larger than others.
   static constexpr double reach_of_a_cell = 2.2;
+
+  bool is_thin(uint32_t face) const {
+    constexpr double aspect = 15;  // of the longest edge to the height above it
+    double longest = 0;
+    for (uint32_t h = 3 * face; h < 3 * face + 3; ++h) longest = std::max(longest, mesh_.length(h));
+    return longest * longest > 2 * aspect * areas_[face];
+  }
 
   void smooth_normals() {
     std::vector<glm::dvec3> smooth(normals_.size());
@@ -125,14 +135,17 @@ class Grower {
         if (mesh_.is_barrier(h)) continue;
         const uint32_t other = face_of(mesh_.twin(h));
         const double turn = 1 - glm::dot(seed_normal, normals_[other]);
-        const double cost = front.cost + glm::distance(centroids_[front.face], centroids_[other]) *
-                                             (1 + options_.normal_weight * turn);
-        if (cost < cost_[other]) enter(other, front.seed, cost);
+        const glm::dvec3 middle = 0.5 * (mesh_.position(mesh_.from(h)) + mesh_.position(mesh_.to(h)));
+        const glm::dvec3& at = is_thin_[other] ? middle : centroids_[other];
+        const double cost =
+            front.cost + glm::distance(reached_[front.face], at) * (1 + options_.normal_weight * turn);
+        if (cost < cost_[other]) enter(other, front.seed, cost, at);
       }
     }
   }
-  void enter(uint32_t face, uint32_t seed, double cost) {
+  void enter(uint32_t face, uint32_t seed, double cost, const glm::dvec3& at) {
     cost_[face] = cost;
+    reached_[face] = at;
     seed_of_[face] = seed;
     queue_.push({cost, face, seed});
   }
@@ -141,7 +154,7 @@ class Grower {
   void seed(const std::vector<uint32_t>& region) {
     const auto grow_from = [&](uint32_t face) {
       seeds_.push_back(face);
-      enter(face, static_cast<uint32_t>(seeds_.size() - 1), 0);
+      enter(face, static_cast<uint32_t>(seeds_.size() - 1), 0, centroids_[face]);
       spread();
     };
     grow_from(region.front());
@@ -188,7 +201,7 @@ class Grower {
         seed = found[i];
         moved = true;
       }
-      enter(seed, static_cast<uint32_t>(first_seed_ + i), 0);
+      enter(seed, static_cast<uint32_t>(first_seed_ + i), 0, centroids_[seed]);
     }
     spread();
     return moved;
@@ -197,6 +210,10 @@ class Grower {
   const HalfEdgeMesh& mesh_;
   const CellOptions& options_;
   std::vector<glm::dvec3> centroids_, normals_;
+  // Where fronts have come to in each face: its centroid; in thin ones the middle of the edge that they came
+  // over, for from centroid to centroid they would zigzag.
+  std::vector<glm::dvec3> reached_;
+  std::vector<bool> is_thin_;
   std::vector<double> areas_, cost_;
   std::vector<uint32_t> seed_of_, seeds_;
   std::vector<std::vector<uint32_t>> regions_;
@@ -225,7 +242,7 @@ double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options) {
   return std::max(cell_radius(area, options), 0.5 * glm::distance(lo, hi) / std::max(options.cells, 1u));
 }
 
-Cells grow_cells(const HalfEdgeMesh& mesh, const CellOptions& options) {
+Cells grow_cells(HalfEdgeMesh& mesh, const CellOptions& options) {
   Cells cells = Grower(mesh, options).run();
   make_discs(mesh, cells);
   return cells;

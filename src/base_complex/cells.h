@@ -25,23 +25,26 @@ double cell_radius(double area, const CellOptions& options);
 double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options);
 
 // The cell of each face, 0 .. count - 1, every one used. Each cell is connected, has no barrier inside, a
-// boundary of one loop that comes to no point twice, and Euler characteristic 1.
+// boundary of one loop that comes to no point twice, and Euler characteristic 1. Edges of the mesh may be
+// split.
 struct Cells {
   std::vector<uint32_t> of_face;
   uint32_t count = 0;
 };
-Cells grow_cells(const HalfEdgeMesh& mesh, const CellOptions& options);
+Cells grow_cells(HalfEdgeMesh& mesh, const CellOptions& options);
 
 // Splits one cell in two between two of its faces: each goes to the one it is nearer to. The new cell gets
 // the next number.
 void split_cell(const HalfEdgeMesh& mesh, Cells& cells, const std::vector<uint32_t>& faces, uint32_t first,
                 uint32_t second);
 
-// Splits a cell in about two, between the faces that are farthest apart. False where it has but one.
-bool halve_cell(const HalfEdgeMesh& mesh, Cells& cells, uint32_t cell);
+// Splits a cell in two or a few, between the faces that are farthest apart. `faces` lists the faces of each
+// cell, and is kept true. False where it has but one.
+bool halve_cell(HalfEdgeMesh& mesh, Cells& cells, std::vector<std::vector<uint32_t>>& faces, uint32_t cell);
 
-// Splits cells until each is a disc as said above.
-void make_discs(const HalfEdgeMesh& mesh, Cells& cells);
+// Splits cells until each is a disc as said above. Edges of the mesh are split where straight borders need
+// it.
+void make_discs(HalfEdgeMesh& mesh, Cells& cells);
 
 // The half-edge behind another one on the boundary of its cell: round its end, through the cell's faces.
 uint32_t next_on_boundary(const HalfEdgeMesh& mesh, const std::vector<uint32_t>& cell_of_face,

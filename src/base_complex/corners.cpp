@@ -2,6 +2,7 @@
 #include "lodestone/base_complex/corners.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,6 +20,9 @@ class CornerChoice {
   CornerChoice(const HalfEdgeMesh& mesh, const std::vector<uint32_t>& boundary,
                const std::vector<double>& angles, const std::vector<bool>& is_node)
       : mesh_(mesh), boundary_(boundary), is_node_(is_node), outline_(mesh, boundary) {
+    nodes_before_.push_back(0);
+    for (const uint32_t h : boundary)
+      nodes_before_.push_back(nodes_before_.back() + (is_node[mesh.from(h)] ? 1 : 0));
     find_bends(angles);
     find_candidates();
   }
@@ -129,8 +133,15 @@ class CornerChoice {
     for (size_t i = 0; i < std::min(most, order.size()); ++i) chosen[order[i]] = true;
   }
 
+  // From one corner to the next.
+  size_t arcs_between(uint32_t from, uint32_t to) const {
+    const size_t inside =
+        nodes_before_[to] - nodes_before_[from + 1] + (from < to ? 0 : nodes_before_.back());
+    return inside + 1;
+  }
+
   double cost(const std::array<uint32_t, 4>& corners) const {
-    constexpr double of_shape = 0.15, of_new_node = 0.05, of_bend = 0.5;
+    constexpr double of_shape = 0.15, of_new_node = 0.3, of_bend = 0.5, of_doubling = 0.15;
     const double tiny = 1e-6 * outline_.length + 1e-300;
     double sides[4];
     double sum = 0;
@@ -139,6 +150,11 @@ class CornerChoice {
     sum += across * across + along * along;
     const double aspect = std::log((sides[0] + sides[2]) / (sides[1] + sides[3]));
     sum += of_shape * aspect * aspect;
+    // A side has a segment for each of its arcs at least, and a power of 2 of them.
+    size_t arcs[4];
+    for (size_t i = 0; i < 4; ++i) arcs[i] = arcs_between(corners[i], corners[(i + 1) % 4]);
+    sum += of_doubling * double(std::bit_width(std::max(arcs[0], arcs[2]) - 1) +
+                                std::bit_width(std::max(arcs[1], arcs[3]) - 1));
     for (const uint32_t corner : corners) {
       const double missing = bends_[corner] / right_angle - 1;
       sum += of_bend * std::min(missing * missing, 4.0);
@@ -151,6 +167,7 @@ class CornerChoice {
   const std::vector<uint32_t>& boundary_;
   const std::vector<bool>& is_node_;
   Outline outline_;
+  std::vector<size_t> nodes_before_;  // on the boundary
   std::vector<double> bends_;
   std::vector<uint32_t> candidates_;
 };

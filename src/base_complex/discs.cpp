@@ -5,6 +5,7 @@
 #include <queue>
 #include <unordered_map>
 
+#include "lodestone/base_complex/cell_cut.h"
 #include "lodestone/base_complex/cells.h"
 
 namespace lodestone::base_complex {
@@ -22,12 +23,14 @@ class CellDistance {
   std::vector<uint32_t> nearest(const std::vector<uint32_t>& sources) {
     constexpr double far_away = std::numeric_limits<double>::infinity();
     cost_.assign(faces_.size(), far_away);
+    entered_at_.resize(faces_.size());
     std::vector<uint32_t> source(faces_.size(), 0);
     std::priority_queue<std::pair<double, uint32_t>, std::vector<std::pair<double, uint32_t>>, std::greater<>>
         queue;
     for (uint32_t s = 0; s < sources.size(); ++s) {
       const uint32_t i = local_.at(sources[s]);
       cost_[i] = 0;
+      entered_at_[i] = mesh_.centroid(sources[s]);
       source[i] = s;
       queue.push({0.0, i});
     }
@@ -41,10 +44,11 @@ class CellDistance {
         const uint32_t other = face_of(mesh_.twin(h));
         if (cells_.of_face[other] != cells_.of_face[face]) continue;
         const uint32_t j = local_.at(other);
-        // Something is added where faces have no extent, so that every step counts.
-        const double step = glm::distance(mesh_.centroid(face), mesh_.centroid(other));
+        const glm::dvec3 middle = 0.5 * (mesh_.position(mesh_.from(h)) + mesh_.position(mesh_.to(h)));
+        const double step = glm::distance(entered_at_[i], middle);
         if (cost + step < cost_[j]) {
           cost_[j] = cost + step;
+          entered_at_[j] = middle;
           source[j] = source[i];
           queue.push({cost_[j], j});
         }
@@ -72,17 +76,19 @@ class CellDistance {
   const std::vector<uint32_t>& faces_;
   std::unordered_map<uint32_t, uint32_t> local_;
   std::vector<double> cost_;
+  std::vector<glm::dvec3> entered_at_;  // the middle of an edge: see cells.cpp
 };
 
 // Two faces of a cell between which it must be split; equal where it is a disc.
 struct Cut {
   uint32_t first = 0, second = 0;
+  bool straight = false;  // a plane between them will do
 };
 
 Cut far_apart(const HalfEdgeMesh& mesh, const Cells& cells, const std::vector<uint32_t>& faces) {
   CellDistance distance(mesh, cells, faces);
   const uint32_t one = distance.farthest_from(faces.front());
-  return {one, distance.farthest_from(one)};
+  return {one, distance.farthest_from(one), true};
 }
 
 class DiscCheck {
@@ -98,7 +104,7 @@ class DiscCheck {
         points.push_back(mesh_.from(h));
         const uint32_t twin = mesh_.twin(h);
         const bool inside = twin != none && cells_.of_face[face_of(twin)] == cells_.of_face[face];
-        if (inside && mesh_.is_barrier(h)) return {face, face_of(twin)};  // a slit
+        if (inside && mesh_.is_barrier(h)) return {face, face_of(twin), false};  // a slit
         if (inside) {
           ++interior;
           continue;
@@ -118,7 +124,9 @@ class DiscCheck {
   }
 
  private:
-  Cut pinch(uint32_t first, uint32_t second) const { return first != second ? Cut{first, second} : ends(); }
+  Cut pinch(uint32_t first, uint32_t second) const {
+    return first != second ? Cut{first, second, false} : ends();
+  }
   Cut ends() const { return far_apart(mesh_, cells_, faces_); }
 
   void find_loops() {
@@ -155,7 +163,7 @@ class DiscCheck {
       if (face_of(h) != first) second = face_of(h);
       if (along >= 0.5 * least && second != first) break;
     }
-    return second != first ? Cut{first, second} : ends();
+    return second != first ? Cut{first, second, true} : ends();
   }
   double loop_length(const std::vector<uint32_t>& loop) const {
     double length = 0;
@@ -170,6 +178,20 @@ class DiscCheck {
   std::vector<std::vector<uint32_t>> loops_;
 };
 
+void split(HalfEdgeMesh& mesh, Cells& cells, std::vector<std::vector<uint32_t>>& faces, uint32_t cell,
+           const Cut& cut) {
+  // A few faces are parted between them, or there would be new ones without end.
+  constexpr size_t worth_cutting = 8;
+  if (cut.straight && faces[cell].size() >= worth_cutting &&
+      cut_cell(mesh, cells, faces, cell, cut.first, cut.second))
+    return;
+  split_cell(mesh, cells, faces[cell], cut.first, cut.second);
+  std::vector<uint32_t> kept, taken;
+  for (const uint32_t face : faces[cell]) (cells.of_face[face] == cell ? kept : taken).push_back(face);
+  faces[cell] = std::move(kept);
+  faces.push_back(std::move(taken));
+}
+
 }  // namespace
 
 void split_cell(const HalfEdgeMesh& mesh, Cells& cells, const std::vector<uint32_t>& faces, uint32_t first,
@@ -180,29 +202,21 @@ void split_cell(const HalfEdgeMesh& mesh, Cells& cells, const std::vector<uint32
   ++cells.count;
 }
 
-bool halve_cell(const HalfEdgeMesh& mesh, Cells& cells, uint32_t cell) {
-  std::vector<uint32_t> faces;
-  for (uint32_t f = 0; f < cells.of_face.size(); ++f)
-    if (cells.of_face[f] == cell) faces.push_back(f);
-  if (faces.size() < 2) return false;
-  const Cut cut = far_apart(mesh, cells, faces);
-  split_cell(mesh, cells, faces, cut.first, cut.second);
+bool halve_cell(HalfEdgeMesh& mesh, Cells& cells, std::vector<std::vector<uint32_t>>& faces, uint32_t cell) {
+  if (faces[cell].size() < 2) return false;
+  split(mesh, cells, faces, cell, far_apart(mesh, cells, faces[cell]));
   return true;
 }
 
-void make_discs(const HalfEdgeMesh& mesh, Cells& cells) {
+void make_discs(HalfEdgeMesh& mesh, Cells& cells) {
   std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
   for (uint32_t cell = 0; cell < faces.size();) {
     const Cut cut = DiscCheck(mesh, cells, faces[cell]).run();
     if (cut.first == cut.second) {
       ++cell;
-      continue;
+    } else {
+      split(mesh, cells, faces, cell, cut);
     }
-    split_cell(mesh, cells, faces[cell], cut.first, cut.second);
-    std::vector<uint32_t> kept, taken;
-    for (const uint32_t face : faces[cell]) (cells.of_face[face] == cell ? kept : taken).push_back(face);
-    faces[cell] = std::move(kept);
-    faces.push_back(std::move(taken));
   }
 }
 

@@ -2,14 +2,16 @@
 #include "lodestone/geometry_image/chart_profile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 namespace lodestone::geometry_image {
 
-ChartProfile::ChartProfile(ChartPowers powers, std::vector<glm::dvec3> points, std::vector<FirmArc> firm)
-    : powers_(powers), points_(std::move(points)), firm_(std::move(firm)) {
+ChartProfile::ChartProfile(ChartPowers powers, std::vector<glm::dvec3> points,
+                           const std::vector<FirmArc>& firm)
+    : powers_(powers), points_(std::move(points)) {
   const uint32_t width = 1u << powers.width, height = 1u << powers.height;
   normals_.reserve(points_.size());
   for (uint32_t y = 0; y <= height; ++y) {
@@ -19,13 +21,13 @@ ChartProfile::ChartProfile(ChartPowers powers, std::vector<glm::dvec3> points, s
       if (y > 0) height_ += glm::distance(at(x, y - 1), at(x, y)) / (width + 1);
     }
   }
-  find_room();
+  find_room(firm);
 }
 
-void ChartProfile::find_room() {
+void ChartProfile::find_room(const std::vector<FirmArc>& firm) {
   const uint32_t width = 1u << powers_.width, height = 1u << powers_.height;
   std::vector<glm::dvec3> border;
-  for (const FirmArc& arc : firm_) {
+  for (const FirmArc& arc : firm) {
     const uint32_t length = arc.side % 2 == 0 ? width : height;
     for (auto i = static_cast<uint32_t>(std::ceil(arc.from * length)); i <= length && i <= arc.to * length;
          ++i) {
@@ -69,16 +71,9 @@ double ChartProfile::error_of_quad(uint32_t x, uint32_t y, uint32_t step_x, uint
   return most;
 }
 
-double ChartProfile::error(ChartPowers powers) const {
-  if (points_.empty()) return 0;
-  double most = surface_error(powers);
-  for (const FirmArc& arc : firm_) {
-    const double segments =
-        std::ldexp(arc.to - arc.from, int(arc.side % 2 == 0 ? powers.width : powers.height));
-    const auto power = static_cast<size_t>(std::lround(std::log2(std::max(segments, 1.0))));
-    most = std::max(most, arc.errors[std::min(power, arc.errors.size() - 1)]);
-  }
-  return most;
+double ChartProfile::error(uint32_t width, uint32_t height) const {
+  const auto power = [](uint32_t side) { return static_cast<uint32_t>(std::bit_width(side)) - 1; };
+  return points_.empty() ? 0.0 : surface_error({power(width), power(height)});
 }
 
 double ChartProfile::surface_error(ChartPowers powers) const {
@@ -97,13 +92,6 @@ double ChartProfile::surface_error(ChartPowers powers) const {
     for (uint32_t x = 0; x < (1u << powers_.width); x += step_x)
       most = std::max(most, error_of_quad(x, y, step_x, step_y));
   return most;
-}
-
-double ChartProfile::width_spacing(ChartPowers powers) const {
-  return std::ldexp(width_, -static_cast<int>(powers.width));
-}
-double ChartProfile::height_spacing(ChartPowers powers) const {
-  return std::ldexp(height_, -static_cast<int>(powers.height));
 }
 
 }  // namespace lodestone::geometry_image

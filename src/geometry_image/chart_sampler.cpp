@@ -78,8 +78,8 @@ ChartSampler::ChartSampler(const base_complex::BaseComplex& complex, const scene
 
 base_complex::Rectangle ChartSampler::rectangle(uint32_t cell) const {
   base_complex::Rectangle rectangle;
-  rectangle.width = sizes_[cell].width();
-  rectangle.height = sizes_[cell].height();
+  rectangle.width = sizes_[cell].width;
+  rectangle.height = sizes_[cell].height;
   rectangle.segments.assign(sizes_[cell].segments.begin(), sizes_[cell].segments.end());
   for (const Passage& passage : complex_.cells[cell].boundary)
     rectangle.places.push_back(places_[passage.arc]);
@@ -124,7 +124,7 @@ SurfaceSample ChartSampler::on_passage(const Passage& passage, const std::vector
 }
 
 void ChartSampler::sample_border(uint32_t cell, std::vector<SurfaceSample>& samples) const {
-  const uint32_t width = sizes_[cell].width(), height = sizes_[cell].height(), stride = width + 1;
+  const uint32_t width = sizes_[cell].width, height = sizes_[cell].height, stride = width + 1;
   const auto place = [&](uint32_t along) -> size_t {  // counterclockwise from the first corner
     if (along < width) return along;
     along -= width;
@@ -151,7 +151,7 @@ void ChartSampler::sample_border(uint32_t cell, std::vector<SurfaceSample>& samp
 }
 
 std::vector<SurfaceSample> ChartSampler::sample(uint32_t cell, const CellMap& map) const {
-  const uint32_t columns = sizes_[cell].width() + 1, rows = sizes_[cell].height() + 1;
+  const uint32_t columns = sizes_[cell].width + 1, rows = sizes_[cell].height + 1;
   std::vector<SurfaceSample> samples(size_t(columns) * rows);
   const std::vector<FacePoint> found = find_lattice(map, columns, rows, 1);
   for (size_t i = 0; i < found.size(); ++i) {

@@ -86,16 +86,35 @@ class SeamFinder {
   }
 
   // Noise makes short creases everywhere: what counts is connected and long, measured by the surface that it
-  // is part of.
+  // is part of. Between smooth surfaces much less is enough, as for the rim of a small hole in a large plate.
   void keep_long(const std::vector<uint32_t>& creases) {
-    constexpr double long_enough = 0.1;
+    constexpr double long_enough = 0.1, long_enough_if_clean = 0.005, mostly = 0.5;
     DisjointSets connected(mesh_.points());
     for (const uint32_t h : creases) connected.join(mesh_.from(h), mesh_.to(h));
-    std::vector<double> length(mesh_.points(), 0);
-    for (const uint32_t h : creases) length[connected.find(mesh_.from(h))] += mesh_.length(h);
+    std::vector<double> length(mesh_.points(), 0), clean(mesh_.points(), 0);
+    for (const uint32_t h : creases) {
+      const uint32_t name = connected.find(mesh_.from(h));
+      length[name] += mesh_.length(h);
+      if (is_smooth_beside(h) && is_smooth_beside(mesh_.twin(h))) clean[name] += mesh_.length(h);
+    }
     const std::vector<double> size = sizes();
-    for (const uint32_t h : creases)
-      if (length[connected.find(mesh_.from(h))] >= long_enough * size[face_of(h)]) mesh_.make_barrier(h);
+    for (const uint32_t h : creases) {
+      const uint32_t name = connected.find(mesh_.from(h));
+      const double least = clean[name] >= mostly * length[name] ? long_enough_if_clean : long_enough;
+      if (length[name] >= least * size[face_of(h)]) mesh_.make_barrier(h);
+    }
+  }
+
+  // Whether the surface is smooth or ends at the two other edges of the face, but for creases as sharp as
+  // those.
+  bool is_smooth_beside(uint32_t half_edge) const {
+    constexpr double smooth = 0.94;  // cosine of 20 degrees
+    for (uint32_t h = next(half_edge); h != half_edge; h = next(h)) {
+      const uint32_t twin = mesh_.twin(h);
+      if (twin == base_complex::none || is_crease(h, twin)) continue;
+      if (glm::dot(mesh_.normal(face_of(h)), mesh_.normal(face_of(twin))) < smooth) return false;
+    }
+    return true;
   }
 
   // Of each face the root of the area that is connected to it.

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <queue>
+#include <span>
+#include <utility>
 
 #include "lodestone/base/parallel.h"
 
@@ -16,89 +18,131 @@ using base_complex::BaseComplex;
 using base_complex::Cell;
 using base_complex::Side;
 
-constexpr uint32_t most_power = 14;  // a chart's sides then fit the layout's Morton codes
+constexpr uint32_t longest_side = 1u << 14;  // a chart's sides then fit the layout's Morton codes
 
-ChartPowers least_powers(const BaseComplex& complex, const Cell& cell) {
+// In quads, powers of 2.
+struct Sides {
+  uint32_t width = 1, height = 1;
+};
+
+Sides least_sides(const BaseComplex& complex, const Cell& cell) {
   const std::array<Side, 4> sides = sides_of(complex, cell);
-  const auto power = [](size_t count) { return static_cast<uint32_t>(std::bit_width(count - 1)); };
   const auto arcs = [&](size_t s) { return sides[s].end - sides[s].first; };
-  return {power(std::max(arcs(0), arcs(2))), power(std::max(arcs(1), arcs(3)))};
+  const auto quads = [](size_t most) { return static_cast<uint32_t>(std::bit_ceil(most)); };
+  return {quads(std::max(arcs(0), arcs(2))), quads(std::max(arcs(1), arcs(3)))};
 }
 
-// Shares a side's quads among its passages by length, each at least one.
-void share(const BaseComplex& complex, const Cell& cell, const Side& side, uint32_t quads,
-           std::vector<uint32_t>& segments) {
-  uint32_t left = quads;
-  double length_left = side.length;
-  for (size_t p = side.first; p < side.end; ++p) {
-    const double length = complex.arcs[cell.boundary[p].arc].length;
-    const auto others = static_cast<uint32_t>(side.end - p - 1);
-    const double wanted = length_left > 0 ? left * length / length_left : double(left) / (others + 1);
-    segments[p] =
-        others == 0 ? left : std::clamp(static_cast<uint32_t>(std::lround(wanted)), 1u, left - others);
-    left -= segments[p];
-    length_left -= length;
+uint64_t texels_of(const Sides& sides) {
+  return uint64_t(sides.width + 1) * (sides.height + 1);
+}
+
+// What each arc needs: that its segments be short and, where it is firm, that it be near to its samples.
+class ArcNeeds {
+ public:
+  ArcNeeds(const BaseComplex& complex, const ArcErrors& errors, const Need& need)
+      : complex_(complex), errors_(errors), need_(need), roughness_(complex.arcs.size(), need.flattest) {
+    for (size_t c = 0; c < need.found.size(); ++c)
+      for (const base_complex::Passage& p : complex.cells[c].boundary)
+        if (!complex.arcs[p.arc].firm) roughness_[p.arc] = std::max(roughness_[p.arc], need.found[c]);
   }
-}
 
-uint64_t texels_of(ChartPowers powers) {
-  return ((uint64_t(1) << powers.width) + 1) * ((uint64_t(1) << powers.height) + 1);
-}
+  // Whatever a line does, it is hardly farther from its chord than half the chord's length.
+  double of(uint32_t arc, uint32_t segments) const {
+    constexpr double farthest = 0.5;
+    const double spacing = complex_.arcs[arc].length / segments;
+    const double share = complex_.arcs[arc].firm ? 1.0 : need_.share;
+    return std::max(roughness_[arc] * spacing,
+                    share * std::min(errors_.error(arc, segments), farthest * spacing));
+  }
+
+  // Shares a side's quads among its passages, at least one each; returns the greatest need that is left.
+  double share(const Cell& cell, const Side& side, uint32_t quads, std::span<uint32_t> segments) const {
+    std::priority_queue<std::pair<double, size_t>> queue;  // need, and the first passage first
+    const auto push = [&](size_t p) { queue.push({of(cell.boundary[p].arc, segments[p]), ~p}); };
+    for (size_t p = side.first; p < side.end; ++p) {
+      segments[p] = 1;
+      push(p);
+    }
+    for (auto left = quads - static_cast<uint32_t>(side.end - side.first); left > 0; --left) {
+      const size_t p = ~queue.top().second;
+      queue.pop();
+      ++segments[p];
+      push(p);
+    }
+    return queue.top().first;
+  }
+
+ private:
+  const BaseComplex& complex_;
+  const ArcErrors& errors_;
+  const Need& need_;
+  std::vector<double> roughness_;  // of each arc, the expected error by the spacing
+};
 
 class Refiner {
  public:
-  Refiner(const BaseComplex& complex, const std::vector<ChartProfile>& profiles, const Need& need)
-      : profiles_(profiles), need_(need), plans_(complex.cells.size()) {
+  Refiner(const BaseComplex& complex, const std::vector<ChartProfile>& profiles, const ArcNeeds& arcs,
+          const Need& need)
+      : complex_(complex), profiles_(profiles), arcs_(arcs), need_(need), plans_(complex.cells.size()) {
     parallel_for(plans_.size(), 1, [&](uint64_t begin, uint64_t end) {
       for (uint64_t c = begin; c < end; ++c) {
-        plans_[c].powers = least_powers(complex, complex.cells[c]);
+        plans_[c].sides = least_sides(complex, complex.cells[c]);
         plan(c);
       }
     });
-    for (const Plan& p : plans_) texels_ += texels_of(p.powers);
+    for (const Plan& p : plans_) texels_ += texels_of(p.sides);
   }
 
-  std::vector<ChartPowers> run(uint64_t budget) {
+  std::vector<Sides> run(uint64_t budget) {
     std::priority_queue<std::pair<double, uint64_t>> queue;  // need, and the lowest chart first
     const auto push = [&](uint64_t c) { queue.push({plans_[c].need, ~c}); };
     for (uint64_t c = 0; c < plans_.size(); ++c) push(c);
     while (!queue.empty()) {
       const uint64_t c = ~queue.top().second;
       queue.pop();
-      const uint64_t more = texels_of(plans_[c].next) - texels_of(plans_[c].powers);
+      const uint64_t more = texels_of(plans_[c].next) - texels_of(plans_[c].sides);
       if (more == 0 || texels_ + more > budget) continue;
       texels_ += more;
-      plans_[c].powers = plans_[c].next;
+      plans_[c].sides = plans_[c].next;
       plan(c);
       push(c);
     }
-    std::vector<ChartPowers> powers;
-    for (const Plan& p : plans_) powers.push_back(p.powers);
-    return powers;
+    std::vector<Sides> sides;
+    for (const Plan& p : plans_) sides.push_back(p.sides);
+    return sides;
   }
 
  private:
   struct Plan {
-    ChartPowers powers, next;
+    Sides sides, next;
     double need = 0;
   };
 
-  double need_of(uint64_t chart, ChartPowers powers) const {
+  double need_of(uint64_t chart, const Sides& quads) const {
     const double weight = need_.chart_weights.empty() ? 1.0 : need_.chart_weights[chart];
-    const double spacing = profiles_[chart].spacing(powers);
-    if (need_.flattest == need_.roughest) return weight * spacing;
-    return weight *
-           std::clamp(profiles_[chart].error(powers), need_.flattest * spacing, need_.roughest * spacing);
+    const double found = need_.found.empty() ? 0.0 : need_.found[chart];
+    const double spacing = profiles_[chart].spacing(quads.width, quads.height);
+    double error = std::max(need_.flattest, found) * spacing;
+    if (need_.flattest != need_.roughest) {
+      error = std::clamp(need_.share * profiles_[chart].error(quads.width, quads.height), error,
+                         std::max(std::max(need_.roughest, found) * spacing, error));
+    }
+    const Cell& cell = complex_.cells[chart];
+    const std::array<Side, 4> sides = sides_of(complex_, cell);
+    std::vector<uint32_t> segments(cell.boundary.size());
+    for (size_t s = 0; s < 4; ++s) {
+      error = std::max(error, arcs_.share(cell, sides[s], s % 2 == 0 ? quads.width : quads.height, segments));
+    }
+    return weight * error;
   }
 
   // Which side to double next: the one that helps more.
   void plan(uint64_t chart) {
     Plan& p = plans_[chart];
-    p.need = need_of(chart, p.powers);
-    p.next = p.powers;
-    const ChartPowers wider = {p.powers.width + 1, p.powers.height},
-                      taller = {p.powers.width, p.powers.height + 1};
-    const bool can_widen = wider.width <= most_power, can_heighten = taller.height <= most_power;
+    p.need = need_of(chart, p.sides);
+    p.next = p.sides;
+    const Sides wider = {2 * p.sides.width, p.sides.height}, taller = {p.sides.width, 2 * p.sides.height};
+    const bool can_widen = wider.width <= longest_side, can_heighten = taller.height <= longest_side;
     if (!can_widen && !can_heighten) return;
     if (can_widen != can_heighten) {
       p.next = can_widen ? wider : taller;
@@ -106,8 +150,8 @@ class Refiner {
     }
     // Of two that help as good as alike the one that makes quads less long; nor may they become very long.
     constexpr double clearly = 0.9, longest = 8;
-    const double across = profiles_[chart].width_spacing(p.powers),
-                 along = profiles_[chart].height_spacing(p.powers);
+    const double across = profiles_[chart].width_spacing(p.sides.width),
+                 along = profiles_[chart].height_spacing(p.sides.height);
     const double of_wider = need_of(chart, wider), of_taller = need_of(chart, taller);
     const bool widen = across > longest * along         ? true
                        : along > longest * across       ? false
@@ -117,7 +161,9 @@ class Refiner {
     p.next = widen ? wider : taller;
   }
 
+  const BaseComplex& complex_;
   const std::vector<ChartProfile>& profiles_;
+  const ArcNeeds& arcs_;
   const Need& need_;
   std::vector<Plan> plans_;
   uint64_t texels_ = 0;
@@ -135,16 +181,18 @@ glm::dvec2 extent_of(const BaseComplex& complex, const Cell& cell) {
 }
 
 std::vector<ChartSize> choose_sizes(const BaseComplex& complex, const std::vector<ChartProfile>& profiles,
-                                    const Need& need, uint64_t budget) {
-  const std::vector<ChartPowers> powers = Refiner(complex, profiles, need).run(budget);
+                                    const ArcErrors& arc_errors, const Need& need, uint64_t budget) {
+  const ArcNeeds arcs(complex, arc_errors, need);
+  const std::vector<Sides> quads = Refiner(complex, profiles, arcs, need).run(budget);
   std::vector<ChartSize> sizes(complex.cells.size());
   for (size_t c = 0; c < sizes.size(); ++c) {
     const Cell& cell = complex.cells[c];
-    sizes[c].powers = powers[c];
+    sizes[c].width = quads[c].width;
+    sizes[c].height = quads[c].height;
     sizes[c].segments.resize(cell.boundary.size());
     const std::array<Side, 4> sides = sides_of(complex, cell);
     for (size_t s = 0; s < 4; ++s)
-      share(complex, cell, sides[s], s % 2 == 0 ? sizes[c].width() : sizes[c].height(), sizes[c].segments);
+      arcs.share(cell, sides[s], s % 2 == 0 ? sizes[c].width : sizes[c].height, sizes[c].segments);
   }
   return sizes;
 }

@@ -6,25 +6,30 @@
 
 namespace lodestone::geometry_image {
 
-double ChartStretch::root_mean_square() const {
-  double area = 0, sum = 0;
-  for (const StretchedFace& face : faces) {
-    area += face.area;
-    sum += face.area * face.stretch * face.stretch;
-  }
-  return area > 0 ? std::sqrt(sum * double(quads)) / area : 1.0;
-}
-
 ChartStretch chart_stretch(const base_complex::CellMap& map,
                            const std::vector<base_complex::TriangleShape>& rest, uint64_t quads) {
   ChartStretch chart;
   chart.quads = quads;
+  // Over the surface's area the squares of how much longer steps along the rectangle's two sides become. With
+  // another aspect one of them is multiplied by what the other is divided by, so their sum is least when they
+  // are equal.
+  double across = 0, along = 0, area = 0;
   for (size_t f = 0; f < map.faces.size(); ++f) {
     const auto& [a, b, c] = map.faces[f];
     if (!(rest[f].area > 0)) continue;
-    const double square = squared_stretch(rest[f], map.at[b] - map.at[a], map.at[c] - map.at[a]);
+    const glm::dvec2 d1 = map.at[b] - map.at[a], d2 = map.at[c] - map.at[a];
+    const double square = squared_stretch(rest[f], d1, d2);
     chart.faces.push_back({std::sqrt(square), rest[f].area});
+    const double det = base_complex::cross(d1, d2);
+    across += rest[f].area *
+              (rest[f].e11 * d2.y * d2.y - 2 * rest[f].e12 * d1.y * d2.y + rest[f].e22 * d1.y * d1.y) /
+              (det * det);
+    along += rest[f].area *
+             (rest[f].e11 * d2.x * d2.x - 2 * rest[f].e12 * d1.x * d2.x + rest[f].e22 * d1.x * d1.x) /
+             (det * det);
+    area += rest[f].area;
   }
+  if (area > 0) chart.unevenness = std::sqrt(std::sqrt(across * along) * double(quads)) / area;
   return chart;
 }
 

@@ -19,8 +19,9 @@ struct ChartStretch {
   std::vector<StretchedFace> faces;
   uint64_t quads = 0;
 
-  // 1 for an isometry up to scale, more where samples are closer in one place than in another.
-  double root_mean_square() const;
+  // The root mean square over the area, for the best width and height of the rectangle: 1 for an isometry
+  // up to those, more where samples are closer in one place than in another.
+  double unevenness = 1;
 };
 
 // `rest` are the shapes of the map's faces in the rest pose, whatever the map was made for.

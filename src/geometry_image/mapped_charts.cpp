@@ -11,7 +11,9 @@
 #include "lodestone/base/parallel.h"
 #include "lodestone/base_complex/base_complex.h"
 #include "lodestone/base_complex/cell_map.h"
+#include "lodestone/geometry_image/arc_errors.h"
 #include "lodestone/geometry_image/chart_errors.h"
+#include "lodestone/geometry_image/chart_feedback.h"
 #include "lodestone/geometry_image/chart_profile.h"
 #include "lodestone/geometry_image/chart_sampler.h"
 #include "lodestone/geometry_image/chart_seams.h"
@@ -39,11 +41,16 @@ constexpr uint32_t triangles_a_chart = 100, most_cells = 128;
 // An edge this much longer than a cell's radius is split first: borders of cells follow edges, and along long
 // thin triangles they would be jagged.
 constexpr double longest_edge = 0.35;
-// With Signal::curvature samples lie up to this much closer where the surface bends than where it is flat.
-constexpr double flattest = 0.04, roughest = 0.12;
-// Charts farther from the surface than this, in diagonals of all, get more texels at the cost of the others.
+// What charts need. With Signal::area what a chart's profile says counts so little that it matters only where
+// the surface is bent as sharply as its charts are wide; with Signal::curvature it counts, within bounds.
+Need need_of(Signal signal) {
+  constexpr double flattest = 0.04;
+  return signal == Signal::curvature ? Need{flattest, 0.12, 1, {}, {}} : Need{flattest, 0.5, 0.2, {}, {}};
+}
+// Charts farther from the surface than this, in diagonals of all, get more texels at the cost of the others,
+// until so many attempts have brought nothing better.
 constexpr double tolerated = 0.004;
-constexpr uint32_t most_attempts = 5;
+constexpr uint32_t patience = 4, most_attempts = 12;
 // Cells with more arcs are split: a side has a segment for each of its arcs at least, so the fewest quads of
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
@@ -138,8 +145,9 @@ class ChartMaker {
     for (int round = 0;; ++round) {
       std::vector<uint32_t> failed = try_cells(mesh, cells, result, round < crowded_rounds);
       if (failed.empty()) return true;
+      std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
       for (const uint32_t cell : failed) {
-        if (round == most_rounds || !halve_cell(mesh, cells, cell)) {
+        if (round == most_rounds || !halve_cell(mesh, cells, faces, cell)) {
           leave_out_cell(mesh, cells, cell);
           return false;
         }
@@ -171,55 +179,42 @@ class ChartMaker {
     if (!crowded.empty() && may_split) return crowded;
     std::vector<std::optional<ChartProfile>> found(complex.cells.size());
     stage("profiles");
-    const std::vector<uint32_t> failed = profile(complex, found);
+    std::vector<uint32_t> failed = profile(complex, found);
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    Need need;
-    if (settings_.signal == Signal::curvature) need = {flattest, roughest, {}};
-    if (metrics_) need.chart_weights = shape_weights(complex);
-    // The best of some attempts: each gives more texels to what was too far from the surface before.
-    double least = std::numeric_limits<double>::infinity();
-    for (uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
-      stage("sizes");
-      const std::vector<ChartSize> sizes = choose_sizes(complex, profiles, need, budget_);
-      stage("maps");
-      MappedCharts made;
-      const std::vector<uint32_t> unmapped = sample(complex, sizes, made, may_split);
-      if (!unmapped.empty()) return unmapped;
-      stage("errors");
-      const std::vector<double> errors = chart_errors(complex, made);
-      const double most = *std::max_element(errors.begin(), errors.end());
-      if (attempt == 0 || most < least) {
-        least = most;
-        result = std::move(made);
-      }
-      if (!demand_more(complex, errors, need)) break;
-    }
-    return {};
+    improve(complex, profiles, may_split, result, failed);
+    return failed;
   }
 
-  // Raises the weights of charts that are too far from the surface, and of those beside them, for what they
-  // share is as coarse as the coarser. False where there is none.
-  bool demand_more(const BaseComplex& complex, const std::vector<double>& errors, Need& need) const {
-    const double tolerance = tolerated * mesh::diagonal({positions_, corners_});
-    std::vector<double> worst_beside(complex.arcs.size(), 0);
-    for (size_t c = 0; c < errors.size(); ++c)
-      for (const base_complex::Passage& p : complex.cells[c].boundary)
-        worst_beside[p.arc] = std::max(worst_beside[p.arc], errors[c]);
-    if (need.chart_weights.empty()) need.chart_weights.assign(errors.size(), 1);
-    bool raised = false;
-    for (size_t c = 0; c < errors.size(); ++c) {
-      double beside = 0;
-      for (const base_complex::Passage& p : complex.cells[c].boundary)
-        beside = std::max(beside, worst_beside[p.arc]);
-      if (beside <= tolerance) continue;
-      const double own = errors[c] / tolerance;
-      need.chart_weights[c] *=
-          own > 1 ? std::clamp(own, 1.5, 4.0) : std::clamp(std::sqrt(beside / tolerance), 1.2, 2.0);
-      raised = true;
+  // The best of some attempts, each of which gives more texels to what was too far from the surface before;
+  // or the cells that could not be mapped.
+  void improve(const BaseComplex& complex, const std::vector<ChartProfile>& profiles, bool may_split,
+               MappedCharts& result, std::vector<uint32_t>& failed) const {
+    const ArcErrors arc_errors(complex);
+    Need need = need_of(settings_.signal);
+    if (metrics_) need.chart_weights = shape_weights(complex);
+    ChartFeedback feedback(complex, profiles, arc_errors, tolerated * mesh::diagonal({positions_, corners_}),
+                           std::move(need));
+    double least = std::numeric_limits<double>::infinity();
+    for (uint32_t attempt = 0, best = 0; attempt < std::min(best + patience, most_attempts); ++attempt) {
+      stage("sizes");
+      const std::vector<ChartSize> sizes =
+          choose_sizes(complex, profiles, arc_errors, feedback.need(), budget_);
+      stage("maps");
+      MappedCharts made;
+      failed = sample(complex, sizes, made, may_split);
+      if (!failed.empty()) return;
+      stage("errors");
+      const std::vector<double> errors = chart_errors(complex, made);
+      const double bad = feedback.badness(errors);
+      if (attempt == 0 || bad < least) {
+        least = bad;
+        best = attempt;
+        result = std::move(made);
+      }
+      if (!feedback.learn(sizes, errors)) return;
     }
-    return raised;
   }
 
   std::vector<double> chart_errors(const BaseComplex& complex, const MappedCharts& made) const {
@@ -255,13 +250,6 @@ class ChartMaker {
 
   std::vector<uint32_t> profile(const BaseComplex& complex,
                                 std::vector<std::optional<ChartProfile>>& found) const {
-    if (settings_.signal == Signal::area) {
-      for (uint32_t c = 0; c < found.size(); ++c) {
-        const glm::dvec2 extent = extent_of(complex, complex.cells[c]);
-        found[c].emplace(extent.x, extent.y);
-      }
-      return {};
-    }
     const ProfileMaker maker(complex, budget_);
     return for_each_cell(found.size(), [&](uint32_t c) { found[c] = maker.make(c, shapes_of(complex, c)); });
   }
@@ -271,8 +259,7 @@ class ChartMaker {
     result = {};
     uint32_t texels = 0;
     for (const ChartSize& size : sizes) {
-      result.charts.push_back(
-          {texels, size.width() + 1, size.height() + 1, layout::chart_mapped, 0, 0, 0, 0});
+      result.charts.push_back({texels, size.width + 1, size.height + 1, layout::chart_mapped, 0, 0, 0, 0});
       texels += static_cast<uint32_t>(size.texels());
     }
     result.texels.resize(texels);
@@ -280,10 +267,9 @@ class ChartMaker {
     std::vector<ChartStretch> stretch(sizes.size());
     const std::vector<uint32_t> failed = for_each_cell(sizes.size(), [&](uint32_t c) {
       const CellMap map = map_cell(complex, c, sampler.rectangle(c), shapes_of(complex, c), {});
-      stretch[c] =
-          chart_stretch(map, face_shapes(complex, c), uint64_t(sizes[c].width()) * sizes[c].height());
+      stretch[c] = chart_stretch(map, face_shapes(complex, c), uint64_t(sizes[c].width) * sizes[c].height);
       const bool large = complex.cells[c].faces.size() > worth_splitting;
-      if (may_split && large && stretch[c].root_mean_square() > too_uneven) throw NotMappable{};
+      if (may_split && large && stretch[c].unevenness > too_uneven) throw NotMappable{};
       glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
       for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
     });

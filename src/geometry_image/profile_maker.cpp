@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "lodestone/base/parallel.h"
-#include "lodestone/base_complex/arc_places.h"
 #include "lodestone/geometry_image/chart_sampler.h"
 #include "lodestone/geometry_image/chart_sizes.h"
 
@@ -20,15 +18,7 @@ using base_complex::Rectangle;
 using base_complex::Side;
 
 ProfileMaker::ProfileMaker(const base_complex::BaseComplex& complex, uint64_t texel_budget)
-    : complex_(complex), arc_errors_(complex.arcs.size()) {
-  constexpr uint64_t arcs_a_task = 16;
-  constexpr uint32_t powers = 9;
-  parallel_for(complex.arcs.size(), arcs_a_task, [&](uint64_t begin, uint64_t end) {
-    for (auto i = static_cast<uint32_t>(begin); i < end; ++i) {
-      for (uint32_t power = 0; complex.arcs[i].firm && power < powers; ++power)
-        arc_errors_[i].push_back(base_complex::arc_error(complex, i, 1u << power));
-    }
-  });
+    : complex_(complex) {
   double area = 0;
   for (const Cell& cell : complex.cells) area += cell.area;
   spacing_ = std::sqrt(area / double(texel_budget));
@@ -44,7 +34,7 @@ ChartProfile ProfileMaker::make(uint32_t cell, std::vector<base_complex::Triangl
   Rectangle rectangle;
   rectangle.width = 1u << powers.width;
   rectangle.height = 1u << powers.height;
-  std::vector<FirmArc> firm = lay_out(complex_.cells[cell], rectangle);
+  const std::vector<FirmArc> firm = lay_out(complex_.cells[cell], rectangle);
   const CellMap map = map_cell(complex_, cell, rectangle, std::move(shapes), {});
   const ChartPowers fine = {powers.width + finer, powers.height + finer};
   std::vector<glm::dvec3> points;
@@ -57,7 +47,7 @@ ChartProfile ProfileMaker::make(uint32_t cell, std::vector<base_complex::Triangl
                            complex_.mesh.position(map.points[c]) * p.barycentrics.z;
     points.push_back(sum / (p.barycentrics.x + p.barycentrics.y + p.barycentrics.z));
   }
-  return {fine, std::move(points), std::move(firm)};
+  return {fine, std::move(points), firm};
 }
 
 // Gives each passage of a cell its share of its side, by length.
@@ -72,7 +62,7 @@ std::vector<FirmArc> ProfileMaker::lay_out(const Cell& cell, Rectangle& rectangl
       const base_complex::Arc& arc = complex_.arcs[cell.boundary[p].arc];
       const double by_length = sides[s].length > 0 ? arc.length / sides[s].length : even;
       const double share = (1 - spread) * by_length + spread * even;
-      if (arc.firm) firm.push_back({s, walked, walked + share, arc_errors_[cell.boundary[p].arc]});
+      if (arc.firm) firm.push_back({s, walked, walked + share});
       rectangle.segments.push_back(share * (s % 2 == 0 ? rectangle.width : rectangle.height));
       walked += share;
     }

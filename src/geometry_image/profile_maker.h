@@ -25,8 +25,6 @@ class ProfileMaker {
 
   const base_complex::BaseComplex& complex_;
   double spacing_ = 0;
-  // Of each firm arc how far it is from its samples, with 1, 2, 4 ... segments.
-  std::vector<std::vector<double>> arc_errors_;
 };
 
 }  // namespace lodestone::geometry_image

@@ -12,10 +12,11 @@
 namespace lodestone::base_complex {
 namespace {
 
-BaseComplex complex_of(const HalfEdgeMesh& mesh, uint32_t cells) {
+BaseComplex complex_of(HalfEdgeMesh mesh, uint32_t cells) {
   CellOptions options;
   options.cells = cells;
-  return build_complex(mesh, grow_cells(mesh, options));
+  Cells grown = grow_cells(mesh, options);
+  return build_complex(std::move(mesh), std::move(grown));
 }
 
 BaseComplex one_cell(const HalfEdgeMesh& mesh) {

@@ -12,10 +12,11 @@ namespace {
 
 using Edge = std::pair<uint32_t, uint32_t>;
 
-BaseComplex complex_of(const HalfEdgeMesh& mesh, uint32_t cells) {
+BaseComplex complex_of(HalfEdgeMesh mesh, uint32_t cells) {
   CellOptions options;
   options.cells = cells;
-  return build_complex(mesh, grow_cells(mesh, options));
+  Cells grown = grow_cells(mesh, options);
+  return build_complex(std::move(mesh), std::move(grown));
 }
 
 bool is_border(const BaseComplex& complex, uint32_t h) {
@@ -176,8 +177,9 @@ TEST(Complex, IsSoundForRaggedCells) {
         cell = numbers.emplace(cell, static_cast<uint32_t>(numbers.size())).first->second;
       cells.count = static_cast<uint32_t>(numbers.size());
       SCOPED_TRACE(sample.name + ", " + std::to_string(seed));
-      make_discs(sample.mesh, cells);
-      expect_complex(build_complex(sample.mesh, cells));
+      HalfEdgeMesh mesh = sample.mesh;
+      make_discs(mesh, cells);
+      expect_complex(build_complex(std::move(mesh), cells));
       if (HasFailure()) return;
     }
   }

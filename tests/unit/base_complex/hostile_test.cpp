@@ -13,9 +13,10 @@ namespace {
 
 constexpr uint32_t many = 100000;
 
-BaseComplex complex_of(const HalfEdgeMesh& mesh) {
+BaseComplex complex_of(HalfEdgeMesh mesh) {
   CellOptions options;
-  return build_complex(mesh, grow_cells(mesh, options));
+  Cells grown = grow_cells(mesh, options);
+  return build_complex(std::move(mesh), std::move(grown));
 }
 
 TEST(Hostile, ManySheetsAtOneEdge) {
