@@ -87,7 +87,7 @@ class CellCutter {
 
   bool part() {
     constexpr size_t most = 4;
-    constexpr double least = 0.04;  // of the area
+    constexpr double least = 0.15;  // of the area
     std::vector<std::vector<uint32_t>> found = pieces();
     if (found.size() < 2 || found.size() > most) return false;
     std::vector<double> areas;

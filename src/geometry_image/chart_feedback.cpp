@@ -23,7 +23,7 @@ bool ChartFeedback::learn(const std::vector<ChartSize>& sizes, const std::vector
   const std::vector<uint32_t> segments = arc_segments(complex_, sizes);
   bool learnt = false;
   for (uint32_t c = 0; c < errors.size(); ++c) {
-    const double known = std::max(tolerance_, error_of_arcs(c, segments));
+    const double known = std::max(tolerance_, error_of_firm_arcs(c, segments));
     const double found = learn_of(c, profiles_[c].spacing(sizes[c].width, sizes[c].height), errors[c], known);
     learnt = learnt || found != need_.found[c];
     need_.found[c] = found;
@@ -31,11 +31,11 @@ bool ChartFeedback::learn(const std::vector<ChartSize>& sizes, const std::vector
   return learnt;
 }
 
-// Known before, and no reason for closer samples inside the chart.
-double ChartFeedback::error_of_arcs(uint32_t chart, const std::vector<uint32_t>& segments) const {
+// Counted in full before, and no reason for closer samples inside the chart.
+double ChartFeedback::error_of_firm_arcs(uint32_t chart, const std::vector<uint32_t>& segments) const {
   double most = 0;
   for (const base_complex::Passage& p : complex_.cells[chart].boundary)
-    most = std::max(most, arc_errors_.error(p.arc, segments[p.arc]));
+    if (complex_.arcs[p.arc].firm) most = std::max(most, arc_errors_.error(p.arc, segments[p.arc]));
   return most;
 }
 

@@ -33,7 +33,7 @@ class ChartFeedback {
     double spacing = std::numeric_limits<double>::infinity(), error = spacing;
     bool in_vain = false;  // closer samples did not help
   };
-  double error_of_arcs(uint32_t chart, const std::vector<uint32_t>& segments) const;
+  double error_of_firm_arcs(uint32_t chart, const std::vector<uint32_t>& segments) const;
   double learn_of(uint32_t chart, double spacing, double error, double known);
 
   const base_complex::BaseComplex& complex_;

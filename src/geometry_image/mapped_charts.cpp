@@ -50,7 +50,7 @@ Need need_of(Signal signal) {
 // Charts farther from the surface than this, in diagonals of all, get more texels at the cost of the others,
 // until so many attempts have brought nothing better.
 constexpr double tolerated = 0.004;
-constexpr uint32_t patience = 4, most_attempts = 12;
+constexpr uint32_t patience = 10, most_attempts = 16;
 // Cells with more arcs are split: a side has a segment for each of its arcs at least, so the fewest quads of
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
@@ -125,7 +125,7 @@ class ChartMaker {
 
   // False where something had to be left out, and all begins again without it.
   bool make(MappedCharts& result) {
-    constexpr int crowded_rounds = 8, most_rounds = 16;
+    constexpr int most_rounds = 24;
     stage("seams");
     corners_.clear();
     for (const uint32_t t : triangles_) corners_.emplace_back(assembly_.triangles[t]);
@@ -143,7 +143,7 @@ class ChartMaker {
     Cells cells = grow_cells(mesh, options);
     if (leave_out_soup(mesh, cells)) return false;
     for (int round = 0;; ++round) {
-      std::vector<uint32_t> failed = try_cells(mesh, cells, result, round < crowded_rounds);
+      std::vector<uint32_t> failed = try_cells(mesh, cells, result, round);
       if (failed.empty()) return true;
       std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
       for (const uint32_t cell : failed) {
@@ -168,7 +168,10 @@ class ChartMaker {
 
   // Charts of the cells; returns the cells that could not be mapped.
   std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, MappedCharts& result,
-                                  bool may_split) const {
+                                  int round) const {
+    // So often cells are split that are crowded, and then those whose maps are uneven, too.
+    constexpr int crowded_rounds = 6, uneven_rounds = 14;
+    const bool may_split = round < uneven_rounds;
     stage("complex");
     const BaseComplex complex = build_complex(mesh, cells);
     std::vector<uint32_t> crowded;
@@ -176,7 +179,7 @@ class ChartMaker {
       const Cell& cell = complex.cells[c];
       if (cell.boundary.size() > most_arcs && cell.faces.size() > most_arcs) crowded.push_back(c);
     }
-    if (!crowded.empty() && may_split) return crowded;
+    if (!crowded.empty() && round < crowded_rounds) return crowded;
     std::vector<std::optional<ChartProfile>> found(complex.cells.size());
     stage("profiles");
     std::vector<uint32_t> failed = profile(complex, found);
