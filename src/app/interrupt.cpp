@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/unfinished_files.h"
 
 namespace lodestone::app {
 namespace {
@@ -16,7 +17,10 @@ std::atomic<bool> signalled{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 void on_signal(int) {
-  if (!keep) ::_exit(int(ExitCode::interrupted));
+  if (!keep) {
+    remove_unfinished_files();
+    ::_exit(int(ExitCode::interrupted));
+  }
   signalled = true;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);

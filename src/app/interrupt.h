@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C. SIGINT and SIGTERM end the program at once with exit code 130, except while something is worth
-// keeping.
+// Ctrl-C. SIGINT and SIGTERM end the program at once with exit code 130, without a half-written file, except
+// while something is worth keeping. So work that keeps nothing before its end, as the baking of an atlas,
+// need not ask whether it is wanted.
 #pragma once
 
 namespace lodestone::app {

@@ -88,7 +88,7 @@ void check_writable(const fs::path& path) {
     const fs::path temporary = temporary_beside(link_target(path));
     made = std::ofstream(temporary, std::ios::binary).is_open();
     reason = std::strerror(errno);
-    fs::remove(temporary, failed);
+    discard_file(temporary);
   }
   if (!made) fail(ExitCode::machine, path.string(), "cannot be written ({}); choose another place", reason);
 }

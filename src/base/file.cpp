@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/unfinished_files.h"
 
 namespace lodestone {
 namespace fs = std::filesystem;
@@ -65,16 +66,26 @@ fs::path temporary_beside(const fs::path& path) {
   fs::path temporary = path;
   temporary.replace_filename(
       fmt::format(".{}.{}.{}{}", path.stem().string(), ::getpid(), serial++, path.extension().string()));
+  begin_unfinished(temporary);
   return temporary;
 }
 
 void commit_file(const fs::path& temporary, const fs::path& path) {
   std::error_code failed;
   fs::rename(temporary, path, failed);
-  if (!failed) return;
+  if (!failed) {
+    end_unfinished(temporary);
+    return;
+  }
   const std::string reason = failed.message();
-  fs::remove(temporary, failed);
+  discard_file(temporary);
   fail(ExitCode::machine, path.string(), "cannot be written: {}", reason);
+}
+
+void discard_file(const fs::path& temporary) {
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  end_unfinished(temporary);
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes) {
@@ -86,8 +97,7 @@ void write_file(const fs::path& path, std::span<const std::byte> bytes) {
   stream.close();
   if (!stream) {
     const std::string reason = std::strerror(errno);
-    std::error_code ignored;
-    if (beside) fs::remove(written, ignored);
+    if (beside) discard_file(written);
     fail(ExitCode::machine, path.string(), "cannot be written ({}); free some room or choose another place",
          reason);
   }

@@ -16,10 +16,14 @@ namespace lodestone {
 std::vector<std::byte> read_file(const std::filesystem::path& path, uint64_t limit = uint64_t(1) << 34);
 
 // A place beside `path` to write to before `commit_file` renames it: output appears whole or not at all.
-// Missing folders are made. Keeps the extension (image writers choose a format by it).
+// Missing folders are made. Keeps the extension (image writers choose a format by it). An interrupt removes
+// what is there (unfinished_files.h) until it is committed or discarded.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 // Renames `temporary` to `path`. Throws Error(machine).
 void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+// Removes `temporary`, if it is there.
+void discard_file(const std::filesystem::path& temporary);
 
 // Whether something is there that is neither a file nor a folder: renaming would put a file in its place.
 bool is_device_or_pipe(const std::filesystem::path& path);

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "lodestone/base/error.h"
+#include "lodestone/base/unfinished_files.h"
 
 namespace lodestone {
 namespace {
@@ -54,6 +55,26 @@ TEST_F(WriteFile, ReplacesAFileAndLeavesNothingBeside) {
   write_file(place("new/a.txt"), std::string("second"));
   EXPECT_EQ(text_of(place("new/a.txt")), "second");
   EXPECT_EQ(file_count(), 2u);
+}
+
+TEST_F(WriteFile, LeavesNothingWhereTheProgramEndsInTheMiddle) {
+  write_file(place("kept.txt"), std::string("kept"));
+  std::vector<fs::path> halves;
+  for (int i = 0; i < 3; ++i) {
+    halves.push_back(temporary_beside(place("a.txt")));
+    std::ofstream(halves.back()) << "half";
+  }
+  commit_file(halves[0], place("a.txt"));
+  discard_file(halves[1]);
+  EXPECT_FALSE(fs::exists(halves[1]));
+  EXPECT_TRUE(fs::exists(halves[2]));
+  std::ofstream(halves[0]) << "of someone else by now";
+  remove_unfinished_files();  // as the signal handler does
+  EXPECT_FALSE(fs::exists(halves[2]));
+  EXPECT_EQ(text_of(place("kept.txt")), "kept");
+  EXPECT_EQ(text_of(place("a.txt")), "half");
+  EXPECT_TRUE(fs::exists(halves[0]));
+  discard_file(halves[2]);
 }
 
 TEST_F(WriteFile, WritesThroughALinkToItsTarget) {
