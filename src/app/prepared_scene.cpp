@@ -63,7 +63,7 @@ std::string PreparedScene::clip_name() const {
   return name.empty() ? std::to_string(animation) : name;
 }
 
-PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose) {
+PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose, bool show_stages) {
   PreparedScene prepared;
   prepared.pose = pose;
   std::optional<BakedScene> baked;
@@ -77,7 +77,7 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
   bool cached = false;
   prepared.atlas = timed(prepared.stages, "charts", [&] {
     if (baked) return baked->take_atlas(prepared.scene, prepared.assembly);
-    StageClock clock(options.scene);
+    StageClock clock(options.scene, show_stages);
     return geometry_image::cached_atlas(prepared.scene, prepared.assembly, options.atlas, &cached,
                                         [&](const char* stage) { clock.begin(stage); });
   });

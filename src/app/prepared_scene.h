@@ -35,8 +35,9 @@ struct PreparedScene {
 };
 
 // Of a .lode file: the scene that it was baked from, with the atlas in the file. scene.name is the file that
-// was read. Throws Error(bad_input) and Error(usage) of the loaders.
-PreparedScene prepare_scene(const SceneOptions& scene, const PoseOptions& pose);
+// was read. Throws Error(bad_input) and Error(usage) of the loaders. `show_stages`: on a terminal, while an
+// atlas is built.
+PreparedScene prepare_scene(const SceneOptions& scene, const PoseOptions& pose, bool show_stages = true);
 
 // The view of one frame; bounds may be empty where none are needed.
 render::View view_of(const PreparedScene& prepared, const scene::Pose& pose, const PictureOptions& picture,

@@ -132,7 +132,8 @@ RenderRun::RenderRun(const RenderOptions& options)
       output_(check(options)),
       threads_(options.device.backend.threads),
       device_(open_device(options.device)),
-      prepared_(prepare_scene(options.scene, options.pose)),
+      prepared_(
+          prepare_scene(options.scene, options.pose, options.progress == report::ProgressMode::automatic)),
       sheet_(options.contact_sheet, options.frames.range().count()),
       progress_(log::level() == log::Level::quiet && options.progress == report::ProgressMode::automatic
                     ? report::ProgressMode::off

@@ -13,7 +13,9 @@
 
 namespace lodestone::app {
 
-StageClock::StageClock(std::string work) : work_(std::move(work)) {}
+StageClock::StageClock(std::string work, bool show)
+    : work_(std::move(work)),
+      show_(show && log::level() != log::Level::quiet && ::isatty(STDERR_FILENO) != 0) {}
 
 StageClock::~StageClock() {
   clear_line();
@@ -23,7 +25,7 @@ void StageClock::begin(const std::string& name) {
   end();
   current_ = name;
   since_ = now_ms();
-  if (log::level() == log::Level::quiet || ::isatty(STDERR_FILENO) == 0) return;
+  if (!show_) return;
   fmt::print(stderr, "\r\x1b[K{}: {} ...", work_, name);
   std::fflush(stderr);
   shown_ = true;

@@ -11,8 +11,8 @@ namespace lodestone::app {
 
 class StageClock {
  public:
-  // `work`: what the stages are of, for the line on the terminal.
-  explicit StageClock(std::string work);
+  // `work`: what the stages are of, for the line on the terminal. Without `show` there is none.
+  explicit StageClock(std::string work, bool show = true);
   ~StageClock();
   StageClock(const StageClock&) = delete;
   StageClock& operator=(const StageClock&) = delete;
@@ -29,7 +29,7 @@ class StageClock {
   std::string work_, current_;
   std::vector<report::Stage> stages_;
   double since_ = 0;
-  bool shown_ = false;
+  bool show_, shown_ = false;
 };
 
 // `seams 12 ms, cells 340 ms`.
