@@ -21,17 +21,37 @@ constexpr uint32_t max_spp = 65536;
 constexpr uint32_t max_threads = 4096;
 constexpr uint32_t max_resolution = 32768;  // of all charts together: 2^30 texels
 
-// Throws Error(usage) where options for resampling are given and nothing will be resampled.
+// An option for resampling that is given; null where none is.
+const char* resampling_option(const geometry_image::ChartSettings& charts) {
+  return charts.texel_budget != 0                        ? "--resolution"
+         : charts.signal != geometry_image::Signal::area ? "--signal"
+         : charts.all_shapes                             ? "--all-shapes"
+                                                         : nullptr;
+}
+
+// Throws Error(usage) where options for resampling are given with an atlas that resamples nothing.
 void check_atlas_options(const SceneOptions& options) {
   using geometry_image::AtlasKind;
-  const geometry_image::AtlasSettings& atlas = options.atlas;
-  if (atlas.kind == AtlasKind::charts || atlas.charts == geometry_image::ChartSettings{}) return;
-  const char* option = atlas.charts.texel_budget != 0                        ? "--resolution"
-                       : atlas.charts.signal != geometry_image::Signal::area ? "--signal"
-                                                                             : "--all-shapes";
-  fail(ExitCode::usage, option,
-       "the atlases grid and exact take their texels from the triangles and have no resolution; use --atlas "
-       "charts, or leave it out");
+  const char* option = resampling_option(options.atlas.charts);
+  if (option == nullptr) return;
+  if (options.atlas.kind == AtlasKind::grid || options.atlas.kind == AtlasKind::exact)
+    fail(ExitCode::usage, option,
+         "the atlases grid and exact take their texels from the triangles and have no resolution; use "
+         "--atlas charts or auto, or leave it out");
+}
+
+// Throws Error(usage) where they are given with auto, which keeps the grids of all that is in this scene.
+void check_resamples(const SceneOptions& options, const scene::Scene& scene) {
+  const char* option = resampling_option(options.atlas.charts);
+  if (option == nullptr || options.atlas.kind != geometry_image::AtlasKind::automatic) return;
+  const bool all_grids = std::all_of(scene.meshes.begin(), scene.meshes.end(), [](const scene::Mesh& mesh) {
+    return !mesh.grids.empty() || mesh.triangles.empty();
+  });
+  if (all_grids)
+    fail(ExitCode::usage, option,
+         "all meshes of `{}` are grids of samples, which --atlas auto keeps; use --atlas charts, or leave it "
+         "out",
+         options.scene);
 }
 
 }  // namespace
@@ -70,7 +90,9 @@ scene::Scene load_scene(const SceneOptions& options) {
   const bool is_mesh = std::find(std::begin(meshes), std::end(meshes), extension) != std::end(meshes);
   if (options.height_scale != 0 && (is_mesh || options.scene.starts_with("builtin:")))
     fail(ExitCode::usage, "--height", "`{}` is no height map; leave the option out", options.scene);
-  return scene::load(options.scene, {options.height_scale});
+  scene::Scene scene = scene::load(options.scene, {options.height_scale});
+  check_resamples(options, scene);
+  return scene;
 }
 
 void add_atlas_options(CLI::App& app, SceneOptions& options) {
@@ -88,28 +110,29 @@ void add_atlas_options(CLI::App& app, SceneOptions& options) {
         parse_choice("--atlas", text, {"auto", "grid", "exact", "charts"});
         options.atlas.kind = kinds.at(text);
       });
-  CLI::Option* resolution = add_value(
-      app, "--resolution", "N", "With --atlas charts: N x N texels in all", [&](const std::string& text) {
-        const uint64_t side = parse_count("--resolution", text, 2, max_resolution);
-        options.atlas.charts.texel_budget = side * side;
-      });
+  CLI::Option* resolution =
+      add_value(app, "--resolution", "N", "With --atlas charts or auto: N x N texels in all",
+                [&](const std::string& text) {
+                  const uint64_t side = parse_count("--resolution", text, 2, max_resolution);
+                  options.atlas.charts.texel_budget = side * side;
+                });
   add_value(app, "--texel-budget", "N",
-            "With --atlas charts: N texels in all (default: about one a triangle)",
+            "With --atlas charts or auto: N texels in all (default: about one a triangle)",
             [&](const std::string& text) {
               options.atlas.charts.texel_budget =
                   parse_count("--texel-budget", text, 4, uint64_t(max_resolution) * max_resolution);
             })
       ->excludes(resolution);
-  add_value(
-      app, "--signal", "NAME",
-      "With --atlas charts: what gets more texels, area (even spacing, default) or curvature (what bends)",
-      [&](const std::string& text) {
-        parse_choice("--signal", text, {"area", "curvature"});
-        options.atlas.charts.signal = text == "area" ? Signal::area : Signal::curvature;
-      });
-  app.add_flag(
-      "--all-shapes", options.atlas.charts.all_shapes,
-      "With --atlas charts: resample for what every morph target stretches, not for the rest pose alone");
+  add_value(app, "--signal", "NAME",
+            "With --atlas charts or auto: what gets more texels, area (even spacing, default) or curvature "
+            "(what bends)",
+            [&](const std::string& text) {
+              parse_choice("--signal", text, {"area", "curvature"});
+              options.atlas.charts.signal = text == "area" ? Signal::area : Signal::curvature;
+            });
+  app.add_flag("--all-shapes", options.atlas.charts.all_shapes,
+               "With --atlas charts or auto: resample for what every morph target stretches, not for the "
+               "rest pose alone");
 }
 
 std::vector<std::string> tracer_names() {

@@ -36,7 +36,8 @@ struct SceneOptions {
 void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height
 void add_atlas_options(CLI::App& app,
                        SceneOptions& options);  // --atlas --resolution --texel-budget --signal --all-shapes
-// The scene, read. Throws Error(usage) where --height is given and the scene is no height map.
+// The scene, read. Throws Error(usage) where --height is given and the scene is no height map, or options for
+// resampling are and nothing would be resampled.
 scene::Scene load_scene(const SceneOptions& options);
 
 // The tracers of this build: the names that --tracer takes.

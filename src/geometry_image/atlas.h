@@ -73,7 +73,7 @@ using OnStage = std::function<void(const char*)>;
 
 // `grid` needs every placed mesh to be made of grids (else Error(usage)); `exact` gives every triangle a
 // chart; `charts` resamples everything, and keeps as exact only what it cannot map; `automatic` takes grid
-// where meshes are made of them, exact for the rest (one atlas can hold charts of all kinds). Throws
+// where meshes are made of them and resamples the rest (one atlas can hold charts of all kinds). Throws
 // Error(bad_input) where no triangle is left, a grid is not what scene.h says, or more texels or leaves are
 // needed than there can be.
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,

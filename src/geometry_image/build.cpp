@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From the input mesh to an atlas (section 3.1 of the paper). The paper parameterises each surface over a few
-// large charts and resamples it (mapped_charts.h). Two other kinds keep the input's own triangles: a mesh
-// that is a grid of samples already is a chart as it stands, and any triangle can be a small chart of its
-// own.
+// large charts and resamples it (mapped_charts.h), and so do we, but for two other kinds that keep the
+// input's own triangles: a mesh that is a grid of samples already is a chart as it stands, and any triangle
+// can be a small chart of its own.
 #include "lodestone/geometry_image/build.h"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly&
     if (kind == AtlasKind::grid && mesh.grids.empty() && !mesh.triangles.empty()) {
       fail(ExitCode::usage, "--atlas",
            "grid needs meshes that are grids of samples, and mesh {} '{}' of {} is none; "
-           "use --atlas exact",
+           "use --atlas auto",
            placement.mesh, mesh.name, scene.name);
     }
     const bool may_be_grid = kind == AtlasKind::automatic || kind == AtlasKind::grid;
@@ -93,6 +93,7 @@ MappedCharts map_surfaces(const scene::Scene& scene, const scene::Assembly& asse
       if (!is_dropped(survey.fates[placement.first_triangle + i]))
         triangles.push_back(placement.first_triangle + i);
   }
+  if (triangles.empty()) return {};
   MappedCharts mapped = map_charts(scene, assembly, welded, triangles, settings.charts, on_stage);
   std::vector<uint32_t> done;
   std::set_difference(triangles.begin(), triangles.end(), mapped.left_out.begin(), mapped.left_out.end(),
@@ -115,13 +116,14 @@ MappedCharts map_surfaces(const scene::Scene& scene, const scene::Assembly& asse
 // Charts and texel map. Welds and surveys; what these need is freed before the other maps are made.
 void chart_surface(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
                    Atlas& atlas, const OnStage& on_stage) {
+  if (on_stage) on_stage("survey");
   const std::vector<bool> as_grid = choose_kinds(scene, assembly, settings.kind);
   const std::vector<uint32_t> welded = weld(assembly);
   TriangleSurvey survey = survey_triangles(scene, assembly, welded, as_grid);
   for (uint32_t v = 0; v < welded.size(); ++v) atlas.report.welded_vertices += welded[v] == v ? 0 : 1;
   report_survey(scene, assembly, survey, atlas.report);
   MappedCharts mapped;
-  if (settings.kind == AtlasKind::charts)
+  if (settings.kind == AtlasKind::charts || settings.kind == AtlasKind::automatic)
     mapped = map_surfaces(scene, assembly, welded, as_grid, settings, survey, atlas.report, on_stage);
   atlas.charts = make_charts(scene, assembly, survey, as_grid);
   atlas.texel_map = make_texel_map(atlas.charts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The leak check at length: leak_bench SCENE DEVICE RAYS [charts], e.g. leak_bench armadillo.obj cpu
+// The leak check at length: leak_bench SCENE DEVICE RAYS [exact|charts], e.g. leak_bench armadillo.obj cpu
 // 100000000. RAYS are shared between the parts of the scene that are closed. Exit code 1 where a ray leaks.
 #include <fmt/format.h>
 
@@ -74,11 +74,14 @@ uint64_t leaks(const Closed& part, const std::string& device, uint64_t rays) {
 int main(int argc, char** argv) try {
   using namespace lodestone;
   if (argc != 4 && argc != 5) {
-    fmt::print(stderr, "usage: leak_bench SCENE|sphere:N DEVICE RAYS [charts]\n");
+    fmt::print(stderr, "usage: leak_bench SCENE|sphere:N DEVICE RAYS [exact|charts]\n");
     return 2;
   }
-  const std::vector<test::Closed> parts = test::closed_parts(
-      argv[1], argc == 5 ? geometry_image::AtlasKind::charts : geometry_image::AtlasKind::automatic);
+  const std::string kind = argc == 5 ? argv[4] : "auto";
+  const std::vector<test::Closed> parts =
+      test::closed_parts(argv[1], kind == "exact"    ? geometry_image::AtlasKind::exact
+                                  : kind == "charts" ? geometry_image::AtlasKind::charts
+                                                     : geometry_image::AtlasKind::automatic);
   if (parts.empty()) {
     fmt::print(stderr, "{}: no point is inside: nothing in it is closed\n", argv[1]);
     return 3;

@@ -69,6 +69,14 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnAnExactAtlas) {
   expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact), GetParam(), small_settings());
 }
 
+TEST_P(Devices, GiveTheBitsOfTheCpuOnResampledSpheres) {
+  for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+    render::Settings settings = small_settings();
+    settings.traversal = traversal;
+    expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts), GetParam(), settings);
+  }
+}
+
 TEST_P(Devices, GiveTheBitsOfTheCpuOnMappedChartsAndBesideThem) {
   ReadyScene spheres("builtin:spheres"), head("builtin:head");
   map_grids(spheres.atlas);
@@ -83,7 +91,8 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnMappedChartsAndBesideThem) {
 TEST_P(Devices, GiveTheBitsOfTheCpuOnMorphsSkinsAndTextures) {
   const auto file = data_file("RobotExpressive.glb");
   if (!file) GTEST_SKIP() << "shared data are absent";
-  expect_equal(ReadyScene(*file), GetParam(), small_settings());
+  for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts})
+    expect_equal(ReadyScene(*file, kind), GetParam(), small_settings());
 }
 
 TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
@@ -99,7 +108,8 @@ TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
 
 // As with scenes whose arrays are larger than a buffer of the device can be: here most of them.
 TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
-  for (const auto kind : {geometry_image::AtlasKind::automatic, geometry_image::AtlasKind::exact}) {
+  using geometry_image::AtlasKind;
+  for (const auto kind : {AtlasKind::grid, AtlasKind::exact, AtlasKind::charts}) {
     const ReadyScene ready("builtin:spheres", kind);
     for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
       render::Settings settings = small_settings();
@@ -110,27 +120,30 @@ TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
 }
 
 // Cut-out layers in one plane and behind each other.
-ReadyScene masked_scene() {
+ReadyScene masked_scene(geometry_image::AtlasKind kind) {
   scene::Material cut;
   cut.base_color.w = 0.2f;
   cut.alpha_mask = true;
   return ReadyScene(
-      facing_camera({square(0.25f, 0), square(0.25f, 1), square(0.5f, 0), square(-0.5f, 0)}, {cut, {}}));
+      facing_camera({square(0.25f, 0), square(0.25f, 1), square(0.5f, 0), square(-0.5f, 0)}, {cut, {}}),
+      kind);
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
-  const ReadyScene ready = masked_scene();
-  for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
-    render::Settings settings = small_settings();
-    settings.traversal = traversal;
-    expect_equal(ready, GetParam(), settings);
+  for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts}) {
+    const ReadyScene ready = masked_scene(kind);
+    for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+      render::Settings settings = small_settings();
+      settings.traversal = traversal;
+      expect_equal(ready, GetParam(), settings);
+    }
   }
 }
 
 // One bit of what a pass wrote, and nothing else, in the row of that pass.
 TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
   constexpr uint32_t bit = 70;
-  const ReadyScene ready = masked_scene();
+  const ReadyScene ready = masked_scene(geometry_image::AtlasKind::exact);
   for (const char* pass : {"links", "blend", "rasterise", "bounds", "camera", "trace", "mask", "aov", "shade",
                            "occlude", "accumulate", "resolve"}) {
     const auto rows =

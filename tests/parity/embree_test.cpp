@@ -60,7 +60,15 @@ TEST(Embree, AgreesOnTerrain) {
 TEST(Embree, AgreesOnAnExactAtlas) {
   const auto file = data_file("armadillo.obj");
   if (!file) GTEST_SKIP() << "shared data are absent";
-  expect_agreement(ReadyScene(*file), 0, 400000);
+  expect_agreement(ReadyScene(*file, geometry_image::AtlasKind::exact), 0, 400000);
+}
+TEST(Embree, AgreesOnResampledSpheres) {
+  expect_agreement(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts), 0.6f, 400000);
+}
+TEST(Embree, AgreesOnTheResampledArmadillo) {
+  const auto file = data_file("armadillo.obj");
+  if (!file) GTEST_SKIP() << "shared data are absent";
+  expect_agreement(ReadyScene(*file, geometry_image::AtlasKind::charts), 0, 400000);
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST_P(MappedCharts, AreCutOutWhereTheSumOfAlphaIsLow) {
 
 TEST_P(MappedCharts, LeaveTheOthersOfTheAtlasAsTheyWere) {
   constexpr uint32_t size = 70;
-  const ReadyScene mixed = straddled_squares(), plain(mixed.scene);
+  const ReadyScene mixed = straddled_squares(), plain = straddled_squares({.mapped = false});
   const image::Image a = render(mixed, size), b = render(plain, size);
   uint32_t hits = 0;
   for (uint32_t y = 0; y < size; ++y) {

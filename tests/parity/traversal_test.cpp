@@ -53,6 +53,8 @@ TEST(Traversals, AgreeOnRandomRays) {
   expect_all_equal(ReadyScene("builtin:spheres"), random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 1));
   expect_all_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact),
                    random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 2));
+  expect_all_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts),
+                   random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 3));
 }
 
 TEST(Traversals, AgreeOnPrimaryRaysWhichTravelAsPackets) {
@@ -99,7 +101,7 @@ scene::Scene long_way(uint32_t count) {
 }
 
 TEST(Traversals, GoOnWhereADeviceCutsLoops) {
-  const ReadyScene ready(long_way(24000));
+  const ReadyScene ready(long_way(24000), geometry_image::AtlasKind::exact);
   Rays rays;
   for (int i = 0; i < 16; ++i) add_ray(rays, {0.9f, 0.9f - 0.001f * static_cast<float>(i), 2}, {0, 0, -1});
   for (const std::string& device : device_names()) {

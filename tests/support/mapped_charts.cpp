@@ -74,18 +74,22 @@ void map_grids(geometry_image::Atlas& atlas, uint32_t nth) {
 }
 
 ReadyScene straddled_squares(const Straddled& options) {
-  ReadyScene ready(three_squares(options));
+  // Of its six exact charts, the first two and the last two make room for a mapped one and a grid.
+  ReadyScene ready(three_squares(options), geometry_image::AtlasKind::exact);
   geometry_image::Atlas& atlas = ready.atlas;
-  // In place of the exact charts of the first square's two triangles.
-  std::vector<layout::ChartRecord> charts = {
-      {0, straddled_width, straddled_height, layout::chart_mapped, 0, 0, 0, 0}};
-  charts.insert(charts.end(), atlas.charts.begin() + 2, atlas.charts.end());
+  std::vector<layout::ChartRecord> charts(atlas.charts.begin(), atlas.charts.begin() + 4);
+  charts.push_back({0, 2, 2, layout::chart_grid, atlas.charts[4].first_triangle, 0, 0, 0});
+  if (options.mapped) {
+    charts.erase(charts.begin());
+    charts[0] = {0, straddled_width, straddled_height, layout::chart_mapped, 0, 0, 0, 0};
+  }
   std::vector<glm::uvec4> texels;
   for (uint32_t i = 0; i < charts.size(); ++i) {
     charts[i].first_texel = static_cast<uint32_t>(texels.size());
     for (uint32_t y = 0; y < charts[i].height; ++y) {
       for (uint32_t x = 0; x < charts[i].width; ++x)
-        texels.push_back(i == 0 ? straddled_texel(x, y) : geometry_image::texel_entry(charts[i], i, x, y));
+        texels.push_back(options.mapped && i == 0 ? straddled_texel(x, y)
+                                                  : geometry_image::texel_entry(charts[i], i, x, y));
     }
   }
   const uint64_t slots = geometry_image::assign_slots(charts, std::vector<glm::vec3>(charts.size()),

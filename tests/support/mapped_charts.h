@@ -15,6 +15,7 @@ void map_grids(geometry_image::Atlas& atlas, uint32_t nth = 1);
 // y), so that most quads near the diagonal have texels in both. The exact square lies at its right, the grid
 // at its left.
 struct Straddled {
+  bool mapped = true;     // else the square has two exact charts in place of the mapped one
   bool tangents = false;  // own ones, which are those that follow from the texture coordinates
   bool cut_out = false;   // where alpha, which the vertices have, is below 0.5
 };

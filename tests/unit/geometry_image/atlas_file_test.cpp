@@ -18,6 +18,7 @@ using test::expect_equal;
 using test::expect_error;
 using test::height_field;
 using test::random_mesh;
+using test::sample_atlas;
 using test::sample_scene;
 
 using Bytes = std::vector<std::byte>;
@@ -46,10 +47,9 @@ class AtlasFile : public test::FolderTest {};
 
 TEST_F(AtlasFile, GivesBackWhatWasSaved) {
   const std::filesystem::path file = folder() / "new" / "atlas.lode";
-  for (const scene::Scene& scene :
-       {sample_scene(), test::scene_of({height_field(2, 2)}), test::scene_of({random_mesh(4, 5000, 30000)}),
-        test::scene_of({height_field(700, 300)})}) {
-    const Atlas atlas = atlas_of(scene);
+  for (const Atlas& atlas :
+       {sample_atlas(), atlas_of(sample_scene()), atlas_of(height_field(2, 2)),
+        atlas_of(random_mesh(4, 5000, 30000), AtlasKind::exact), atlas_of(height_field(700, 300))}) {
     save_atlas(file, atlas, {"the hash", "below/scene.obj", 0.25f, AtlasKind::exact});
     BakeRecord record;
     expect_equal(load_atlas(file, &record), atlas);
@@ -58,7 +58,7 @@ TEST_F(AtlasFile, GivesBackWhatWasSaved) {
     EXPECT_EQ(record.height_scale, 0.25f);
     EXPECT_EQ(record.asked, AtlasKind::exact);
   }
-  EXPECT_FALSE(atlas_of(sample_scene()).report.notes.empty()) << "or they were not tested";
+  EXPECT_FALSE(sample_atlas().report.notes.empty()) << "or they were not tested";
 }
 
 TEST_F(AtlasFile, IsSmall) {
@@ -79,7 +79,7 @@ TEST_F(AtlasFile, IsRefusedWhereItIsMissingOrSomethingElse) {
 }
 
 TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
-  Bytes file = pack_atlas(atlas_of(sample_scene()), {"hash"});
+  Bytes file = pack_atlas(sample_atlas(), {"hash"});
   file[8] = std::byte(7);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
@@ -104,7 +104,7 @@ TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
 }
 
 TEST_F(AtlasFile, IsRefusedWithAnyBitChanged) {
-  const Bytes good = pack_atlas(atlas_of(sample_scene()), {"hash"});
+  const Bytes good = pack_atlas(sample_atlas(), {"hash"});
   ASSERT_TRUE(unpack(good));
   for (size_t i = 0; i < good.size(); ++i) {
     for (const int bit : {0, 3, 7}) {
@@ -116,7 +116,7 @@ TEST_F(AtlasFile, IsRefusedWithAnyBitChanged) {
 }
 
 TEST_F(AtlasFile, IsRefusedAtAnyOtherLength) {
-  const Bytes good = pack_atlas(atlas_of(sample_scene()), {"hash"});
+  const Bytes good = pack_atlas(sample_atlas(), {"hash"});
   for (size_t length = 0; length < good.size(); ++length) {
     Bytes bad(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length));
     EXPECT_FALSE(unpack(bad)) << length;
@@ -132,7 +132,7 @@ TEST_F(AtlasFile, IsRefusedAtAnyOtherLength) {
 
 // A checksum keeps out damage, not malice.
 TEST_F(AtlasFile, IsHarmlessWhereAForgerSignedTheChange) {
-  Atlas atlas_without_notes = atlas_of(sample_scene());
+  Atlas atlas_without_notes = sample_atlas();
   atlas_without_notes.report.notes.clear();
   const Bytes good = pack_atlas(atlas_without_notes, {""});
   size_t refused = 0, taken = 0;
@@ -151,13 +151,15 @@ TEST_F(AtlasFile, IsHarmlessWhereAForgerSignedTheChange) {
 
 // Changes the atlas itself, so that the file is well made and what it says is wrong.
 TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
-  const Atlas good = atlas_of(sample_scene());
+  const Atlas good = sample_atlas();
   const auto refuse = [&](const auto& change, const std::string& because) {
     Atlas bad = good;
     change(bad);
     expect_error([&] { unpack_atlas("x.lode", pack_atlas(bad, {""}), nullptr); }, ExitCode::bad_input,
                  "x.lode", because);
   };
+  ASSERT_EQ(find_fault(good), "");
+  ASSERT_EQ(good.charts.size(), 3u);
   refuse([](Atlas& a) { a.charts.clear(); }, "no chart");
   refuse([](Atlas& a) { a.kind = AtlasKind(9); }, "charts of another kind");
   refuse([](Atlas& a) { a.kind = AtlasKind::grid; }, "charts of another kind");
@@ -190,7 +192,7 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
 }
 
 TEST_F(AtlasFile, IsRefusedWhereItsMappedChartsLeadAstray) {
-  Atlas good = atlas_of(sample_scene());
+  Atlas good = sample_atlas();
   ASSERT_EQ(good.charts[0].kind, layout::chart_grid);
   good.charts[0].kind = layout::chart_mapped;
   good.texel_map[3].x = good.texel_map.back().x;  // of another mesh
@@ -217,7 +219,7 @@ TEST_F(AtlasFile, IsRefusedWhereItsMappedChartsLeadAstray) {
 }
 
 TEST_F(AtlasFile, IsRefusedWhereItsRecordIsNone) {
-  const Atlas atlas = atlas_of(sample_scene());
+  const Atlas atlas = sample_atlas();
   const auto refuse = [&](const BakeRecord& record, const std::string& because) {
     expect_error([&] { unpack_atlas("x.lode", pack_atlas(atlas, record), nullptr); }, ExitCode::bad_input,
                  "x.lode", because);
@@ -231,7 +233,7 @@ TEST_F(AtlasFile, IsRefusedWhereItsRecordIsNone) {
 
 // Whatever sizes a file claims, memory follows the data that are there.
 TEST_F(AtlasFile, AllocatesNoMoreThanItHolds) {
-  Bytes file = pack_atlas(atlas_of(sample_scene()), {""});
+  Bytes file = pack_atlas(sample_atlas(), {""});
   constexpr size_t counts_at =
       8 + 4 + 4 + (4 + 4 + 4 + 4 + 8 + 4 + 4) + 4 + 4;  // magic, version, content, empty record, kind, depth
   for (size_t which = 0; which < 3; ++which) {

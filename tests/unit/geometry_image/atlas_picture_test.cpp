@@ -27,11 +27,11 @@ AtlasSurface rest_surface(const scene::Scene& scene, const Atlas& atlas) {
   return surface_of(scene, scene::assemble(scene), atlas, scene::evaluate(scene, scene::none, 0));
 }
 
-TEST(AtlasPicture, ShowsEachTexelOnceWhereItsChartIs) {
-  const scene::Scene scene =
-      scene_of({height_field(9, 5), mesh_of({{0, 0, 9}, {1, 0, 9}, {0, 1, 9}}, {{0, 1, 2}}),
-                height_field(3, 7, {50, 0, 0})});
-  const Atlas atlas = test::atlas_of(scene);
+// `kinds`: how many kinds of chart it must have, so that the right thing is looked at.
+void expect_each_texel_once(const Atlas& atlas, size_t kinds, size_t texels) {
+  std::set<uint32_t> kinds_found;
+  for (const layout::ChartRecord& chart : atlas.charts) kinds_found.insert(chart.kind);
+  EXPECT_EQ(kinds_found.size(), kinds);
   const AtlasPicture picture = lay_out(atlas, "test");
   ASSERT_EQ(picture.texels.size(), size_t(picture.width) * picture.height);
   std::set<uint32_t> shown;
@@ -40,7 +40,7 @@ TEST(AtlasPicture, ShowsEachTexelOnceWhereItsChartIs) {
     EXPECT_TRUE(shown.insert(texel).second);
     EXPECT_NE(atlas.texel_map[texel].w, 0u);
   }
-  EXPECT_EQ(shown.size(), 9 * 5 + 8 + 3 * 7u);
+  EXPECT_EQ(shown.size(), texels);
   for (const layout::ChartRecord& chart : atlas.charts) {
     const auto first = std::find(picture.texels.begin(), picture.texels.end(), chart.first_texel);
     for (uint32_t y = 0; y < chart.height; ++y) {
@@ -51,6 +51,17 @@ TEST(AtlasPicture, ShowsEachTexelOnceWhereItsChartIs) {
       }
     }
   }
+}
+
+TEST(AtlasPicture, ShowsEachTexelOnceWhereItsChartIs) {
+  const scene::Mesh triangle = mesh_of({{0, 0, 9}, {1, 0, 9}, {0, 1, 9}}, {{0, 1, 2}});
+  const scene::Scene scene = scene_of({height_field(9, 5), triangle, height_field(3, 7, {50, 0, 0})});
+  const Atlas resampled = test::atlas_of(scene);
+  expect_each_texel_once(resampled, 2, resampled.texel_map.size());
+  const Atlas exact = test::atlas_of(scene, AtlasKind::exact);
+  expect_each_texel_once(exact, 1, 8 * exact.charts.size());
+  const Atlas beside_soup = test::atlas_of(scene_of({height_field(9, 5), test::pages(256)}));
+  expect_each_texel_once(beside_soup, 2, 9 * 5 + 8 * 256);
 }
 
 TEST(AtlasPicture, HasStretchOneWhereTexelsAreEven) {

@@ -52,7 +52,8 @@ TEST(ExactCharts, SampleCornersMidpointsAndCentroidOfATriangle) {
 TEST(ExactCharts, KeepTheNumbersOfTheInputsTriangles) {
   // Triangles 1 and 3 have no area: charts 0, 1, 2 are triangles 0, 2, 4.
   const Atlas atlas = atlas_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {5, 5, 5}},
-                                       {{0, 1, 2}, {0, 0, 2}, {3, 2, 1}, {1, 2, 1}, {0, 3, 4}}));
+                                       {{0, 1, 2}, {0, 0, 2}, {3, 2, 1}, {1, 2, 1}, {0, 3, 4}}),
+                               AtlasKind::exact);
   ASSERT_EQ(atlas.charts.size(), 3u);
   for (uint32_t i = 0; i < 3; ++i) {
     EXPECT_EQ(atlas.charts[i].first_triangle, 2 * i);
@@ -65,7 +66,7 @@ TEST(ExactCharts, KeepTheNumbersOfTheInputsTriangles) {
 
 // Each small triangle of the quads' halves (a, b, c) and (d, c, b), in the triangle's own coordinates.
 TEST(ExactCharts, CoverTheTriangleOnceAndKeepItsOrientation) {
-  const Atlas atlas = atlas_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+  const Atlas atlas = atlas_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), AtlasKind::exact);
   double covered = 0;
   for (const glm::uvec2& leaf : atlas.leaf_map) {
     if (leaf.x == layout::empty_slot) continue;

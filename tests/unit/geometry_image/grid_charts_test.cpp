@@ -84,20 +84,30 @@ TEST(GridCharts, HaveQuadsWhoseHalvesAreTheInputsTriangles) {
 }
 
 TEST(GridCharts, ShareAnAtlasWithExactOnes) {
-  const scene::Mesh triangles = mesh_of({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}, {{0, 1, 2}, {3, 2, 1}});
-  const scene::Scene scene = scene_of({triangles, height_field(9, 9), triangles});
+  constexpr uint32_t count = 256;
+  const scene::Scene scene = scene_of({test::pages(count), height_field(9, 9), test::pages(count)});
   const Atlas atlas = atlas_of(scene);
   EXPECT_EQ(atlas.kind, AtlasKind::automatic);
-  ASSERT_EQ(atlas.charts.size(), 5u);
-  const uint32_t kinds[] = {layout::chart_exact, layout::chart_exact, layout::chart_grid, layout::chart_exact,
-                            layout::chart_exact};
-  const uint32_t triangle_of[] = {0, 1, 2, 2 + 128, 2 + 129};
-  for (uint32_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(atlas.charts[i].kind, kinds[i]);
-    EXPECT_EQ(atlas.charts[i].first_triangle, triangle_of[i]);
+  ASSERT_EQ(atlas.charts.size(), 2 * count + 1);
+  uint32_t triangle = 0;
+  for (uint32_t i = 0; i < atlas.charts.size(); ++i) {
+    EXPECT_EQ(atlas.charts[i].kind, i == count ? layout::chart_grid : layout::chart_exact) << i;
+    EXPECT_EQ(atlas.charts[i].first_triangle, triangle) << i;
+    triangle += i == count ? 128 : 1;
   }
-  EXPECT_EQ(atlas.charts[2].first_slot, 0u) << "the largest block comes first";
-  EXPECT_EQ(atlas.report.quads, 64u + 4 * 3);
+  EXPECT_EQ(atlas.charts[count].first_slot, 0u) << "the largest block comes first";
+  EXPECT_EQ(atlas.report.quads, 64u + 2 * count * 3);
+}
+
+TEST(GridCharts, StayWhereOtherMeshesAreResampled) {
+  const scene::Mesh triangles = mesh_of({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}, {{0, 1, 2}, {3, 2, 1}});
+  const Atlas atlas = atlas_of(scene_of({triangles, height_field(9, 9), triangles}));
+  EXPECT_EQ(atlas.kind, AtlasKind::automatic);
+  ASSERT_EQ(atlas.charts.size(), 3u);
+  EXPECT_EQ(atlas.charts[0].kind, layout::chart_grid);
+  EXPECT_EQ(atlas.charts[0].first_triangle, 2u);
+  for (uint32_t i : {1u, 2u}) EXPECT_EQ(atlas.charts[i].kind, layout::chart_mapped);
+  EXPECT_EQ(atlas.report.mapped_triangles, 4u);
 }
 
 TEST(GridCharts, GiveWayToExactOnesOnRequest) {

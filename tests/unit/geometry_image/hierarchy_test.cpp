@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "lodestone/geometry_image/atlas_check.h"
 #include "lodestone/geometry_image/build.h"
@@ -17,16 +18,16 @@ using test::height_field;
 using test::random_mesh;
 using test::scene_of;
 
-// Grids of many shapes beside triangles.
+// Charts of all kinds: triangles that are resampled, soup that is not, and grids of many shapes.
 scene::Scene mixed_scene(uint32_t seed) {
   std::mt19937 random(seed);
-  scene::Scene scene = scene_of({random_mesh(seed, 50, 200)});
+  scene::Scene scene = scene_of({random_mesh(seed, 50, 200), test::pages(300)});
   for (uint32_t i = 0; i < 6; ++i) {
     const auto width = static_cast<uint32_t>(2 + random() % 40),
                height = static_cast<uint32_t>(2 + random() % 9);
     scene.meshes.push_back(height_field(width, height, {float(10 * i), 0, 5}));
     scene.nodes.emplace_back();
-    scene.nodes.back().mesh = i + 1;
+    scene.nodes.back().mesh = i + 2;
     scene.nodes.back().translation = {0, float(random() % 100), 0};
   }
   scene.nodes.push_back(scene.nodes[0]);
@@ -76,12 +77,15 @@ TEST(Hierarchy, HoldsEveryQuadOnceAndEveryChartInASubtree) {
   for (uint32_t seed = 1; seed <= 10; ++seed) {
     const scene::Scene scene = mixed_scene(seed);
     const scene::Assembly assembly = scene::assemble(scene);
-    for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact}) {
+    for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact, AtlasKind::charts}) {
       for (const ChartOrder order : {ChartOrder::median, ChartOrder::hilbert}) {
         const Atlas atlas = build_atlas(scene, assembly, kind, order);
         expect_every_quad_once(atlas);
         expect_charts_to_be_subtrees(atlas);
         EXPECT_EQ(find_fault(atlas), "");
+        std::set<uint32_t> kinds;
+        for (const layout::ChartRecord& chart : atlas.charts) kinds.insert(chart.kind);
+        EXPECT_EQ(kinds.size(), kind == AtlasKind::automatic ? 3u : kind == AtlasKind::exact ? 1u : 2u);
       }
     }
   }
@@ -109,7 +113,7 @@ TEST(Hierarchy, BringsNeighboursInTheWorldTogether) {
   scene::Scene scene = scene_of({triangle});
   scene.nodes.resize(16, scene.nodes[0]);
   for (uint32_t i = 0; i < 16; ++i) scene.nodes[i].translation = {float(i % 4) * 100, float(i / 4), 0};
-  const Atlas atlas = atlas_of(scene);
+  const Atlas atlas = atlas_of(scene, AtlasKind::exact);
   for (uint32_t i = 0; i < 16; ++i) {
     for (uint32_t j = 0; j < 16; ++j) {
       const bool same_subtree = atlas.charts[i].first_slot / 16 == atlas.charts[j].first_slot / 16;

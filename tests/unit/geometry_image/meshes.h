@@ -84,6 +84,19 @@ inline scene::Mesh random_mesh(uint32_t seed, uint32_t vertices, uint32_t triang
   return mesh;
 }
 
+// Triangles that share one edge, like the pages of a book. From 256 on they are soup, which is not resampled.
+inline scene::Mesh pages(uint32_t count) {
+  scene::Mesh mesh = mesh_of({{0, 0, 0}, {0, 0, 1}}, {});
+  for (uint32_t i = 0; i < count; ++i) {
+    const float angle = 6.2831853f * float(i) / float(count);
+    mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.5f);
+    mesh.triangles.emplace_back(0, 1, 2 + i);
+  }
+  mesh.normals.resize(mesh.positions.size(), glm::vec3(0, 0, 1));
+  mesh.parts = {{0, count, scene::none}};
+  return mesh;
+}
+
 inline Atlas atlas_of(const scene::Scene& scene, const AtlasSettings& settings = {}) {
   return build_atlas(scene, scene::assemble(scene), settings);
 }

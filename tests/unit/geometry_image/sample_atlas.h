@@ -8,14 +8,39 @@
 #include <filesystem>
 #include <string>
 
+#include "lodestone/geometry_image/charts.h"
+#include "lodestone/geometry_image/notes.h"
+#include "lodestone/geometry_image/slots.h"
+#include "lodestone/geometry_image/weld.h"
 #include "meshes.h"
 
 namespace lodestone::geometry_image::test {
 
-// A grid chart, two exact ones, and notes: one triangle is dropped and edges are open.
+// A grid, and a square of which one triangle is dropped and edges are open.
 inline scene::Scene sample_scene() {
   return scene_of({height_field(4, 3),
                    mesh_of({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}, {{0, 1, 2}, {3, 2, 1}, {0, 0, 3}})});
+}
+
+// Of that scene: a grid chart, two exact ones, and notes.
+inline Atlas sample_atlas() {
+  const scene::Scene scene = sample_scene();
+  const scene::Assembly assembly = scene::assemble(scene);
+  const std::vector<bool> as_grid = {true, false};
+  const TriangleSurvey survey = survey_triangles(scene, assembly, weld(assembly), as_grid);
+  Atlas atlas;
+  report_survey(scene, assembly, survey, atlas.report);
+  atlas.charts = make_charts(scene, assembly, survey, as_grid);
+  atlas.kind = kind_of(atlas.charts);
+  atlas.texel_map = make_texel_map(atlas.charts);
+  const uint64_t slots =
+      assign_slots(atlas.charts, std::vector<glm::vec3>(atlas.charts.size()), ChartOrder::median, scene.name);
+  atlas.depth = tree_depth(slots);
+  atlas.leaf_map = make_leaf_map(atlas.charts, slots);
+  atlas.report.quads = quad_count(atlas.charts[0]) + 2 * 3;
+  atlas.report.texels = atlas.texel_map.size();
+  atlas.report.slots = slots;
+  return atlas;
 }
 
 inline void expect_equal(const Atlas& a, const Atlas& b) {

@@ -10,9 +10,14 @@
 namespace lodestone::geometry_image {
 namespace {
 
-using test::atlas_of;
 using test::expect_error;
 using test::mesh_of;
+
+// With a chart for every triangle that is drawn.
+template <class Input>
+Atlas atlas_of(Input input) {
+  return test::atlas_of(std::move(input), AtlasKind::exact);
+}
 
 std::vector<uint32_t> drawn(const Atlas& atlas) {
   std::vector<uint32_t> triangles;
