@@ -63,7 +63,7 @@ TEST_F(Baked, FindsItsSceneInTheFolderBelowWhereverBothGo) {
   const Json info = Json::parse(run({"info", place("a/t.lode"), "--json"}).out);
   EXPECT_EQ(info["source"], (Json{{"scene", "models/t.obj"}, {"asked_atlas", "exact"}}));
   fs::rename(place("a"), place("b"));
-  expect_same_picture(place("b/t.lode"), place("b/models/t.obj"));
+  expect_same_picture(place("b/t.lode"), place("b/models/t.obj"), {"--atlas", "exact"});
 }
 
 TEST_F(Baked, KeepsTheHeightOfAHeightMap) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C keeps what is finished.
+// Ctrl-C keeps what is finished, and nothing else.
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,7 @@ class Interrupt : public CommandLine {
   Result interrupt(int signal, const std::vector<std::string>& more = {}) const {
     ProcessOptions options;
     options.signal = signal;
-    options.signal_when = [this] { return std::filesystem::exists(place("x.00002.png")); };
+    options.signal_when = [this](const Result&) { return std::filesystem::exists(place("x.00002.png")); };
     std::vector<std::string> arguments = {"--frames", "0-99999"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(tiny_render(place("x.#####.png"), arguments), options);
@@ -52,7 +53,7 @@ TEST_F(Interrupt, StopsAFrameThatIsInProgress) {
   ProcessOptions options;
   options.signal = SIGINT;
   const auto begin = std::chrono::steady_clock::now();
-  options.signal_when = [begin] {
+  options.signal_when = [begin](const Result&) {
     return std::chrono::steady_clock::now() - begin > std::chrono::seconds(5);
   };
   const Result result = run({"render", "builtin:tiny", "-o", place("x.png"), "--device", "cpu", "--size",
@@ -61,6 +62,93 @@ TEST_F(Interrupt, StopsAFrameThatIsInProgress) {
   EXPECT_EQ(result.code, 130);
   EXPECT_LT(result.seconds_after_signal, 10) << "the rest of the frame would take hours";
   EXPECT_TRUE(files().empty());
+}
+
+class InterruptedBake : public CommandLine {
+ protected:
+  // A ball of 60,000 triangles as an .obj, which is no grid to the program.
+  std::string ball() const {
+    constexpr int rows = 150, columns = 200;
+    constexpr double pi = 3.14159265358979;
+    std::string text;
+    char line[96];
+    for (int y = 0; y <= rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const double theta = pi * (y + 0.5) / (rows + 1), phi = 2 * pi * x / columns;
+        std::snprintf(line, sizeof line, "v %.6f %.6f %.6f\n", std::sin(theta) * std::cos(phi),
+                      std::cos(theta), std::sin(theta) * std::sin(phi));
+        text += line;
+      }
+    }
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const int a = y * columns + x + 1, b = y * columns + (x + 1) % columns + 1;
+        std::snprintf(line, sizeof line, "f %d %d %d %d\n", a, b, b + columns, a + columns);
+        text += line;
+      }
+    }
+    write_text(place("ball.obj"), text);
+    return place("ball.obj");
+  }
+  // On a terminal, which shows the stages; interrupted when it shows this one.
+  Result stop(const std::vector<std::string>& arguments, const std::string& stage,
+              int signal = SIGINT) const {
+    ProcessOptions options = {.environment = {{"LODESTONE_CACHE", place("cache")}}};
+    options.terminal = true;
+    options.signal = signal;
+    options.signal_when = [stage](const Result& so_far) {
+      return so_far.err.find("ball.obj: " + stage + " ...") != std::string::npos;
+    };
+    Result result = run(arguments, options);
+    EXPECT_EQ(result.code, 130) << stage << ": " << result.err;
+    EXPECT_LT(result.seconds_after_signal, 2) << stage;
+    return result;
+  }
+  Result finish(const std::vector<std::string>& arguments) const {
+    Result result = run(arguments, {.environment = {{"LODESTONE_CACHE", place("cache")}}});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result;
+  }
+};
+
+TEST_F(InterruptedBake, LeavesNoFileAndTheNextOneWorks) {
+  const std::vector<std::string> bake = {"bake", ball(), "-o", place("ball.lode")};
+  for (const char* stage : {"survey", "cells", "maps", "errors", "distance"}) {
+    stop(bake, stage);
+    EXPECT_EQ(files(), std::vector<std::string>{"ball.obj"}) << stage;
+  }
+  stop(bake, "maps", SIGTERM);
+  EXPECT_EQ(files(), std::vector<std::string>{"ball.obj"});
+  EXPECT_NE(finish(bake).out.find("resampled        60000 triangles"), std::string::npos);
+  EXPECT_EQ(files(), (std::vector<std::string>{"ball.lode", "ball.obj"}));
+  EXPECT_EQ(run({"info", place("ball.lode")}).code, 0);
+}
+
+TEST_F(InterruptedBake, LeavesNothingInTheCacheAndTheNextPictureIsMade) {
+  const std::vector<std::string> render = {"render",   ball(), "-o", place("x.png"), "--size", "16x16",
+                                           "--device", "cpu",  "-v"};
+  for (const char* stage : {"seams", "maps", "errors"}) {
+    stop(render, stage);
+    EXPECT_EQ(files(), std::vector<std::string>{"ball.obj"}) << stage;  // and no folder for the cache
+  }
+  EXPECT_EQ(finish(render).err.find("atlas from the cache"), std::string::npos);
+  EXPECT_EQ(files(), (std::vector<std::string>{"ball.obj", "cache", "x.png"}));
+  EXPECT_NE(finish(render).err.find("atlas from the cache"), std::string::npos);
+}
+
+TEST_F(InterruptedBake, ShowsItsStagesOnATerminalAlone) {
+  const std::vector<std::string> info = {"info", ball()};
+  const Result shown = run(info, {.environment = {{"LODESTONE_CACHE", place("a")}}, .terminal = true});
+  for (const char* stage : {"survey", "seams", "cells", "complex", "maps", "errors", "order"})
+    EXPECT_NE(shown.err.find(std::string("ball.obj: ") + stage + " ..."), std::string::npos) << stage;
+  EXPECT_EQ(run(info, {.environment = {{"LODESTONE_CACHE", place("b")}}}).err, "");
+  for (const char* mode : {"off", "json"}) {
+    const std::vector<std::string> render = {"render", place("ball.obj"), "-o",  place("x.png"), "--size",
+                                             "16x16",  "--device",        "cpu", "--progress",   mode};
+    const std::string cache = place(std::string("cache-") + mode);
+    const Result result = run(render, {.environment = {{"LODESTONE_CACHE", cache}}, .terminal = true});
+    EXPECT_EQ(result.err.find("maps"), std::string::npos) << result.err;
+  }
 }
 
 }  // namespace

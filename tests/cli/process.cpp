@@ -16,10 +16,20 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// A pipe whose ends close themselves.
+// A pipe, or a terminal, whose ends close themselves.
 class Pipe {
  public:
-  Pipe() { EXPECT_EQ(::pipe2(ends_, O_CLOEXEC), 0); }
+  explicit Pipe(bool terminal = false) {
+    if (!terminal) {
+      EXPECT_EQ(::pipe2(ends_, O_CLOEXEC), 0);
+      return;
+    }
+    ends_[0] = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    EXPECT_EQ(::grantpt(ends_[0]), 0);
+    EXPECT_EQ(::unlockpt(ends_[0]), 0);
+    ends_[1] = ::open(::ptsname(ends_[0]), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    EXPECT_GE(ends_[1], 0);
+  }
   ~Pipe() {
     close_end(0);
     close_end(1);
@@ -77,7 +87,7 @@ void collect(pid_t child, const ProcessOptions& options, Pipe& out, Pipe& err, R
     ::poll(files, 2, 5);
     if (files[0].revents != 0) out_open = drain(out.read_end(), result.out);
     if (files[1].revents != 0) err_open = drain(err.read_end(), result.err);
-    if (!signalled && options.signal_when()) {
+    if (!signalled && options.signal_when(result)) {
       ::kill(child, options.signal);
       signalled = true;
       signalled_at = Clock::now();
@@ -95,7 +105,7 @@ void collect(pid_t child, const ProcessOptions& options, Pipe& out, Pipe& err, R
 }  // namespace
 
 Result run(const std::vector<std::string>& arguments, const ProcessOptions& options) {
-  Pipe out, err;
+  Pipe out, err(options.terminal);
   const pid_t child = ::fork();
   if (child == 0) become_program(arguments, options, out, err);
   out.close_end(1);

@@ -24,8 +24,9 @@ struct ProcessOptions {
   std::chrono::seconds limit{240};                   // then it is killed, and the test fails
   std::string output{};  // a file that standard output goes to; empty: Result::out
   // Asked every few milliseconds; the first time that it says yes the program gets `signal`.
-  std::function<bool()> signal_when{};
+  std::function<bool(const Result& so_far)> signal_when{};
   int signal = 0;
+  bool terminal = false;  // standard error is one
 };
 
 // The program with these arguments, its cache in a folder that this run of the tests shares.

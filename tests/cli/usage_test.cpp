@@ -78,6 +78,17 @@ const Wrong wrong_values[] = {
     {"ResolutionOfAnExactAtlas",
      with({"--atlas", "exact", "--resolution", "256"}),
      {"--resolution", "exact"}},
+    {"ResolutionOfAGridAtlas",
+     with({"--atlas", "grid", "--resolution", "256"}),
+     {"--resolution", "exact", "use --atlas charts or auto"}},
+    {"BudgetOfAnExactAtlas", with({"--atlas", "exact", "--texel-budget", "256"}), {"no resolution"}},
+    {"ResolutionWhereAllAreGrids",
+     with({"--device", "cpu", "--resolution", "256"}),
+     {"--resolution: all meshes of `builtin:tiny` are grids", "use --atlas charts"}},
+    {"SignalWhereAllAreGrids", {"info", "builtin:tiny", "--signal", "curvature"}, {"--signal: all meshes"}},
+    {"ShapesWhereAllAreGrids",
+     {"bake", "builtin:tiny", "-o", "/tmp/x.lode", "--all-shapes", "--atlas", "auto"},
+     {"--all-shapes: all meshes"}},
     {"SignalOfAnExactAtlas", with({"--atlas", "exact", "--signal", "curvature"}), {"--signal", "exact"}},
     {"ShapesOfAnExactAtlas", with({"--atlas", "exact", "--all-shapes"}), {"--all-shapes", "exact"}},
     {"UnknownSignal", with({"--signal", "colour"}), {"--signal", "curvature"}},
@@ -134,6 +145,27 @@ const Wrong wrong_values[] = {
 
 INSTANTIATE_TEST_SUITE_P(OfValues, WrongUsage, testing::ValuesIn(wrong_values),
                          [](const auto& test) { return std::string(test.param.name); });
+
+class Resampling : public CommandLine {};
+
+TEST_F(Resampling, IsTheDefaultOfMeshesAndTakesItsOptions) {
+  write_text(place("t.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 3 2\n");
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{},
+        {"--resolution", "5"},
+        {"--texel-budget", "20"},
+        {"--signal", "curvature"},
+        {"--all-shapes"},
+        {"--atlas", "auto", "--resolution", "9", "--signal", "curvature", "--all-shapes"}}) {
+    std::vector<std::string> arguments = {"info", place("t.obj"), "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find("\"mapped_triangles\": 2"), std::string::npos) << result.out;
+  }
+  const Result exact = run({"info", place("t.obj"), "--json", "--atlas", "exact"});
+  EXPECT_NE(exact.out.find("\"mapped_triangles\": 0"), std::string::npos) << exact.out;
+}
 
 class Camera : public CommandLine {};
 
