@@ -12,6 +12,7 @@
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/median.h"
 #include "lodestone/test_support/ready_scene.h"
+#include "lodestone/test_support/rounds.h"
 
 namespace lodestone::test {
 namespace {
@@ -51,9 +52,8 @@ int bench(const std::string& name, int rounds) {
   fmt::print("{}, 512 x 512, {} against SCALAR\n{:<12} {:>10} {:>10}   times as fast: median (range)\n", name,
              cpu_fallback::simd_target(), "pass", "ms", "SCALAR ms");
   for (const auto& [pass, ratios] : ratio) {
-    const auto [lo, hi] = std::minmax_element(ratios.begin(), ratios.end());
-    fmt::print("{:<12} {:>10.2f} {:>10.2f} {:>7.2f} ({:.2f} to {:.2f})\n", pass, median(wide[pass]),
-               median(scalar[pass]), median(ratios), *lo, *hi);
+    fmt::print("{:<12} {:>10.2f} {:>10.2f} {:>7}\n", pass, median(wide[pass]), median(scalar[pass]),
+               spread(ratios));
   }
   return 0;
 }

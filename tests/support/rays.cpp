@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/test_support/rays.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "lodestone/layout/atlas.h"
 
@@ -15,17 +17,30 @@ void add_ray(Rays& rays, const vec3& origin, const vec3& direction) {
 }
 
 Rays primary_rays(const vec3& eye, const vec3& target, float half_angle, uint32_t size) {
-  const vec3 forward = glm::normalize(target - eye);
-  const vec3 right = glm::normalize(glm::cross(forward, vec3(0, 1, 0))), up = glm::cross(right, forward);
   const float half = std::tan(half_angle);
+  render::View view;
+  view.origin = eye;
+  view.forward = glm::normalize(target - eye);
+  const vec3 right = glm::normalize(glm::cross(view.forward, vec3(0, 1, 0)));
+  view.up = glm::cross(right, view.forward) * half;
+  view.right = right * half;
+  return primary_rays(view, size);
+}
+
+Rays primary_rays(const render::View& view, uint32_t size) {
   Rays rays;
   for (uint32_t i = 0; i < size * size; ++i) {
     const uint32_t tile = i / 64, within = i % 64;
     const uint32_t x = tile % (size / 8) * 8 + layout::gather_bits(within);
     const uint32_t y = tile / (size / 8) * 8 + layout::gather_bits(within >> 1);
-    const float sx = (2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(size) - 1) * half;
-    const float sy = (1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(size)) * half;
-    add_ray(rays, eye, forward + right * sx + up * sy);
+    const float sx = 2 * (static_cast<float>(x) + 0.5f) / static_cast<float>(size) - 1;
+    const float sy = 1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
+    const vec3 across = view.right * sx + view.up * sy;
+    if (view.perspective) {
+      add_ray(rays, view.origin, view.forward + across);
+    } else {
+      add_ray(rays, view.origin + across, view.forward);
+    }
   }
   return rays;
 }
@@ -55,7 +70,12 @@ Rays random_rays(const vec3& lo, const vec3& hi, uint32_t count, uint32_t seed) 
 }
 
 Rays surface_rays(const std::vector<vec3>& points, const std::vector<glm::uvec3>& triangles, uint32_t count,
-                  uint32_t seed) {
+                  uint32_t seed, float clearance) {
+  const auto area_of = [&](const glm::uvec3& t) {
+    return glm::length(glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]));
+  };
+  if (std::none_of(triangles.begin(), triangles.end(), [&](const glm::uvec3& t) { return area_of(t) > 0; }))
+    throw std::invalid_argument("no triangle that rays could start from has an area");
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0, 1);
   std::uniform_int_distribution<size_t> pick(0, triangles.size() - 1);
@@ -73,7 +93,7 @@ Rays surface_rays(const std::vector<vec3>& points, const std::vector<glm::uvec3>
     const vec3 on = points[t.x] * (1 - u - v) + points[t.y] * u + points[t.z] * v;
     const vec3 outward = normal / area;
     const vec3 direction = outward + random_direction(random) * 0.999f;
-    add_ray(rays, on + outward * 1e-4f, direction);
+    add_ray(rays, on + outward * clearance, direction);
   }
   return rays;
 }

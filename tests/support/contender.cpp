@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/test_support/contender.h"
+
+#include <cmath>
+
+#include "lodestone/test_support/devices.h"
+
+namespace lodestone::test {
+
+Contender::Contender(const ReadyScene& ready, const std::string& device)
+    : device_(device), backend_(open(device)) {
+  render::Settings settings;
+  settings.width = settings.height = 8;
+  renderer_ =
+      std::make_unique<render::Renderer>(*backend_, ready.scene, ready.assembly, ready.atlas, settings);
+}
+
+PassSeconds Contender::take_passes() {
+  PassSeconds sums;
+  for (const render::PassRecord& pass : backend_->finish())
+    sums[pass.name] += (std::isnan(pass.device_ms) ? pass.wall_ms : pass.device_ms) / 1e3;
+  return sums;
+}
+
+}  // namespace lodestone::test
