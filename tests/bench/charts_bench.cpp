@@ -32,6 +32,7 @@ struct Choice {
   int rounds = 7;
   uint32_t size = 512, incoherent = 262144;
   float time = 0.4f;
+  bool counters = false;
 };
 
 // The charts of one budget, and the same triangles as an exact atlas.
@@ -99,6 +100,32 @@ void print_sizes(const Subject& subject, const std::string& device) {
     const double rms = pair.fidelity.root_mean_square, hausdorff = pair.fidelity.hausdorff();
     row(fmt::format("charts {:g}", pair.budget), pair.charts, rms, hausdorff);
     row("  as exact", pair.same, rms, hausdorff);
+  }
+}
+
+// What a ray costs in steps, which no other program on the machine can change.
+void print_counters(const Subject& subject, const std::string& device) {
+  fmt::print("{:<12} {:<11} {:>9} {:>9} {:>13}   a ray\n", "atlas", "rays", "nodes", "boxes", "triangles");
+  const auto row = [&](const std::string& name, const ReadyScene& ready, const scene::Pose& pose) {
+    render::BackendOptions options;
+    options.counters = true;
+    Contender contender(ready, device, options);
+    contender.renderer().update(pose);
+    for (const auto& [kind, rays] :
+         {std::pair{"primary", &subject.primary}, std::pair{"incoherent", &subject.incoherent}}) {
+      contender.renderer().load_rays(*rays);
+      contender.renderer().trace_loaded();
+      const render::Counters counted = contender.take_counters("trace");
+      const double count = double(rays->size() / 2);
+      fmt::print("{:<12} {:<11} {:>9.2f} {:>9.2f} {:>13.2f}\n", name, kind,
+                 double(counted.node_visits) / count, double(counted.box_tests) / count,
+                 double(counted.triangle_tests) / count);
+    }
+  };
+  row("exact", subject.exact, subject.pose);
+  for (const Pair& pair : subject.pairs) {
+    row(fmt::format("charts {:g}", pair.budget), pair.charts, subject.pose);
+    row("  as exact", pair.same, scene::evaluate(pair.same.scene, scene::none, 0));
   }
 }
 
@@ -175,8 +202,10 @@ void print_times(const Subject& subject, const char* what, const char* unit, dou
   std::fflush(stdout);
 }
 
-void bench(const Subject& subject, const std::string& device, int rounds) {
+void bench(const Subject& subject, const std::string& device, const Choice& choice) {
+  const int rounds = choice.rounds;
   print_sizes(subject, device);
+  if (choice.counters) print_counters(subject, device);
   fmt::print("{:<11} {:>6} {:>9} {:>9} {:>9} {:<8} {:>22} {:>22}\n", "what", "charts", "exact", "as exact",
              "charts", "unit", "times as fast as exact", "as exact of the same");
   Arena arena(subject, device);
@@ -221,10 +250,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(8, 8192));
   app.add_option("--incoherent", choice.incoherent, "Incoherent rays")->check(CLI::Range(1, 1 << 24));
   app.add_option("--time", choice.time, "Seconds of the first clip");
+  app.add_flag("--counters", choice.counters, "Count the steps of rays, too");
   return bench_main(app, argc, argv, [&] {
     for (const std::string& name : choice.scenes) {
       const Subject subject = make_subject(name, choice);
-      for (const std::string& device : choice.devices) bench(subject, device, choice.rounds);
+      for (const std::string& device : choice.devices) bench(subject, device, choice);
     }
   });
 }

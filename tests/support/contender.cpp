@@ -7,8 +7,9 @@
 
 namespace lodestone::test {
 
-Contender::Contender(const ReadyScene& ready, const std::string& device)
-    : device_(device), backend_(open(device)) {
+Contender::Contender(const ReadyScene& ready, const std::string& device,
+                     const render::BackendOptions& options)
+    : device_(device), backend_(open(device, options)) {
   render::Settings settings;
   settings.width = settings.height = 8;
   renderer_ =
@@ -20,6 +21,18 @@ PassSeconds Contender::take_passes() {
   for (const render::PassRecord& pass : backend_->finish())
     sums[pass.name] += (std::isnan(pass.device_ms) ? pass.wall_ms : pass.device_ms) / 1e3;
   return sums;
+}
+
+render::Counters Contender::take_counters(const std::string& name) {
+  render::Counters sum;
+  for (const render::PassRecord& pass : backend_->finish()) {
+    if (pass.name != name) continue;
+    sum.rays += pass.counters.rays;
+    sum.node_visits += pass.counters.node_visits;
+    sum.box_tests += pass.counters.box_tests;
+    sum.triangle_tests += pass.counters.triangle_tests;
+  }
+  return sum;
 }
 
 }  // namespace lodestone::test

@@ -17,10 +17,13 @@ using PassSeconds = std::map<std::string, double>;  // by the name of the pass, 
 class Contender {
  public:
   // `ready` must outlive it. Throws Error(device).
-  Contender(const ReadyScene& ready, const std::string& device);
+  Contender(const ReadyScene& ready, const std::string& device, const render::BackendOptions& options = {});
+
   render::Renderer& renderer() { return *renderer_; }
   // Waits; what the passes took that have run since the last call: device time where there is one.
   PassSeconds take_passes();
+  // Waits; what those of them counted that bear this name (BackendOptions::counters).
+  render::Counters take_counters(const std::string& pass);
   const std::string& device() const { return device_; }
   uint64_t allocated_bytes() const { return backend_->allocated_bytes(); }
 
