@@ -6,13 +6,12 @@
 // cpu,llvmpipe] [--rounds N] [--time S]
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lodestone/base/error.h"
 #include "lodestone/geometry_image/fidelity.h"
 #include "lodestone/layout/atlas.h"
 #include "lodestone/scene/load.h"
 #include "lodestone/test_support/bench_main.h"
+#include "lodestone/test_support/charts_choice.h"
 #include "lodestone/test_support/contender.h"
 #include "lodestone/test_support/image_scene.h"
 #include "lodestone/test_support/median.h"
@@ -24,13 +23,12 @@ namespace {
 
 using geometry_image::AtlasKind;
 
-struct Choice {
-  std::vector<std::string> scenes{"armadillo.obj", "stanford_bunny.obj", "scallop.glb",
-                                  "ict_face_sparse.glb"};
-  std::vector<double> budgets{0.25, 0.5, 1, 2};  // texels a triangle
-  std::vector<std::string> devices{"cpu", "llvmpipe"};
-  int rounds = 7;
-  uint32_t size = 512, incoherent = 262144;
+struct Choice : ChartsChoice {
+  Choice() {
+    scenes = {"armadillo.obj", "stanford_bunny.obj", "scallop.glb", "ict_face_sparse.glb"};
+    budgets = {0.25, 0.5, 1, 2};
+  }
+  uint32_t incoherent = 262144;
   float time = 0.4f;
   bool counters = false;
 };
@@ -51,10 +49,7 @@ struct Subject {
 };
 
 Pair make_pair(const Subject& subject, double budget) {
-  geometry_image::AtlasSettings settings(AtlasKind::charts);
-  settings.charts.texel_budget = std::max<uint64_t>(
-      4, static_cast<uint64_t>(std::llround(budget * double(subject.exact.assembly.triangles.size()))));
-  ReadyScene charts(subject.exact.scene, settings);
+  ReadyScene charts = with_charts(subject.exact, budget);
   const auto fidelity =
       geometry_image::measure_fidelity(charts.scene, charts.assembly, charts.atlas, subject.pose);
   if (!fidelity) fail_input(subject.name, "nothing of it can be resampled: take another scene");
@@ -239,15 +234,7 @@ int main(int argc, char** argv) {
   using namespace lodestone::test;
   Choice choice;
   CLI::App app("Resampled charts beside the exact atlas", "charts_bench");
-  app.add_option("--scenes", choice.scenes, "Files, also of the shared data folder, or builtin:NAME")
-      ->delimiter(',');
-  app.add_option("--budgets", choice.budgets, "Texels a triangle")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  app.add_option("--devices", choice.devices, "cpu, or a part of a device's name")->delimiter(',');
-  app.add_option("--rounds", choice.rounds, "Turns of each")->check(CLI::Range(1, 10000));
-  app.add_option("--size", choice.size, "Primary rays of a picture of N x N pixels, N a multiple of 8")
-      ->check(CLI::Range(8, 8192));
+  choice.add_options(app);
   app.add_option("--incoherent", choice.incoherent, "Incoherent rays")->check(CLI::Range(1, 1 << 24));
   app.add_option("--time", choice.time, "Seconds of the first clip");
   app.add_flag("--counters", choice.counters, "Count the steps of rays, too");

@@ -7,12 +7,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "lodestone/base/error.h"
 #include "lodestone/scene/load.h"
 #include "lodestone/test_support/bench_main.h"
+#include "lodestone/test_support/charts_choice.h"
 #include "lodestone/test_support/contender.h"
 #include "lodestone/test_support/embree_scene.h"
 #include "lodestone/test_support/median.h"
@@ -23,14 +22,6 @@ namespace lodestone::test {
 namespace {
 
 using geometry_image::AtlasKind;
-
-struct Choice {
-  std::vector<std::string> scenes{"ict_face_sparse.glb", "ict_face_dense16.glb"};
-  std::vector<double> budgets{1};  // texels a triangle
-  std::vector<std::string> devices{"cpu", "llvmpipe"};
-  int rounds = 11;
-  uint32_t size = 512;
-};
 
 // Seconds of the stages of a frame, one a round; `bound`: refit, rebuild, or our bounds.
 struct Stages {
@@ -119,16 +110,12 @@ std::string times_as_fast(const EmbreeFrame& refit, const EmbreeFrame& rebuild, 
   return spread(rounds.ratio);
 }
 
-void bench(const std::string& name, const Choice& choice) {
+void bench(const std::string& name, const ChartsChoice& choice) {
   const ReadyScene exact(data_file(name).value_or(name), AtlasKind::exact);
   if (exact.animation == scene::none) fail_input(name, "has no animation whose frames could be timed");
   std::vector<std::pair<std::string, ReadyScene>> charts;
-  for (const double budget : choice.budgets) {
-    geometry_image::AtlasSettings settings(AtlasKind::charts);
-    settings.charts.texel_budget = std::max<uint64_t>(
-        4, static_cast<uint64_t>(std::llround(budget * double(exact.assembly.triangles.size()))));
-    charts.emplace_back(fmt::format("charts {:g}", budget), ReadyScene(exact.scene, settings));
-  }
+  for (const double budget : choice.budgets)
+    charts.emplace_back(fmt::format("charts {:g}", budget), with_charts(exact, budget));
   const scene::Pose first = exact.pose(0);
   const auto view = render::find_view(exact.scene, first, "", scene::pose_bounds(exact.scene, first),
                                       choice.size, choice.size);
@@ -170,17 +157,11 @@ void bench(const std::string& name, const Choice& choice) {
 
 int main(int argc, char** argv) {
   using namespace lodestone::test;
-  Choice choice;
+  ChartsChoice choice;
+  choice.scenes = {"ict_face_sparse.glb", "ict_face_dense16.glb"};
+  choice.budgets = {1};
   CLI::App app("Whole frames of an animation beside Embree", "frame_bench");
-  app.add_option("--scenes", choice.scenes, "Files, also of the shared data folder, or builtin:NAME")
-      ->delimiter(',');
-  app.add_option("--budgets", choice.budgets, "Texels a triangle")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  app.add_option("--devices", choice.devices, "cpu, or a part of a device's name")->delimiter(',');
-  app.add_option("--rounds", choice.rounds, "Frames of each")->check(CLI::Range(1, 10000));
-  app.add_option("--size", choice.size, "Pictures of N x N pixels, N a multiple of 8")
-      ->check(CLI::Range(8, 8192));
+  choice.add_options(app);
   return bench_main(app, argc, argv, [&] {
     for (const std::string& name : choice.scenes) bench(name, choice);
   });
