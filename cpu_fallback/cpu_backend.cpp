@@ -26,6 +26,9 @@ CpuPass find_pass(std::string_view kernel) {
   static const std::map<std::string_view, CpuPass> passes = {
       {"geometry_image/links", links},
       {"geometry_image/blend", blend},
+      {"geometry_image/relax_begin", relax_begin},
+      {"geometry_image/relax_measure", relax_measure},
+      {"geometry_image/relax_move", relax_move},
       {"geometry_image/rasterise", rasterise},
       {"geometry_image/bounds_leaves", bounds_leaves},
       {"geometry_image/bounds", bounds},

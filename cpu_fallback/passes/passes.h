@@ -8,6 +8,9 @@ namespace lodestone::cpu_fallback {
 
 void links(const CpuDispatch& dispatch);
 void blend(const CpuDispatch& dispatch);
+void relax_begin(const CpuDispatch& dispatch);
+void relax_measure(const CpuDispatch& dispatch);
+void relax_move(const CpuDispatch& dispatch);
 void rasterise(const CpuDispatch& dispatch);
 void bounds_leaves(const CpuDispatch& dispatch);
 void bounds(const CpuDispatch& dispatch);

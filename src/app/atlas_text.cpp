@@ -24,6 +24,7 @@ std::string atlas_text(const std::string& name, const geometry_image::Atlas& atl
     text += fmt::format("  L2 stretch       mean {:.3f}, 95th percentile {:.3f}\n", report.mean_stretch,
                         report.high_stretch);
   }
+  if (!atlas.maps.empty()) text += fmt::format("  maps             {} bytes\n", atlas.maps.bytes());
   if (!fidelity) return text;
   text += fmt::format(
       "  distance         {:.4f} % from the input, {:.4f} % from the geometry image, Hausdorff {:.4f} %\n",

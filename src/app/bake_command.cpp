@@ -69,6 +69,8 @@ void add_bake_command(CLI::App& app, std::function<int()>& run) {
   add_path(*command, "-o,--output", "FILE.lode", "The baked file", options->output)->required();
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
+  command->add_flag("--keep-maps", options->scene.atlas.charts.keep_maps,
+                    "Keep the maps of resampled charts, which --relaxation-sweeps needs");
   add_path(*command, "--atlas-image", "NAME.png", atlas_image_help, options->atlas_image);
   add_threads_option(*command, options->threads);
   add_log_options(*command);

@@ -43,7 +43,14 @@ BakedScene::BakedScene(const SceneOptions& options) : file_(options.scene) {
   if (options.height_scale != 0)
     fail(ExitCode::usage, "--height", "`{}` was baked with a height of its own; leave the option out", file_);
   atlas_ = geometry_image::load_atlas(file_, &record_);
-  if (options.atlas != geometry_image::AtlasSettings{} && options.atlas != record_.asked)
+  if (options.atlas.charts.keep_maps && atlas_.report.mapped_charts > 0 && atlas_.maps.empty()) {
+    fail(ExitCode::usage, "--relaxation-sweeps",
+         "`{}` was baked without the maps of its charts; bake it again with --keep-maps", file_);
+  }
+  geometry_image::AtlasSettings asked = options.atlas;
+  asked.charts.keep_maps = false;  // a file that has them serves both
+  if (asked != geometry_image::AtlasSettings{}) asked.charts.keep_maps = record_.asked.charts.keep_maps;
+  if (asked != geometry_image::AtlasSettings{} && asked != record_.asked)
     fail(ExitCode::usage, "--atlas", "`{}` was baked with another one; leave the option out or bake it again",
          file_);
   if (record_.scene.empty())

@@ -29,6 +29,7 @@ constexpr uint32_t max_repeats = 10000;
 struct BenchOptions {
   SceneOptions scene;
   PoseOptions pose;
+  uint32_t relaxation_sweeps = 0;
   PictureOptions picture;
   DeviceOptions device;
   double time = 0;
@@ -129,6 +130,7 @@ TraversalCost bench_traversal(const BenchOptions& options, const PreparedScene& 
   render::Settings settings;
   settings.width = options.picture.size.width;
   settings.height = options.picture.size.height;
+  settings.relaxation_sweeps = options.relaxation_sweeps;
   settings.traversal = parse_traversal("--traversal", traversal);
   render::Renderer renderer(backend, prepared.scene, prepared.assembly, prepared.atlas, settings);
   TraversalCost cost;
@@ -222,6 +224,7 @@ void add_bench_command(CLI::App& app, std::function<int()>& run) {
   BenchOptions& options = *shared;
   add_scene_argument(*command, options.scene);
   add_atlas_options(*command, options.scene);
+  add_relaxation_option(*command, options.scene, options.relaxation_sweeps);
   add_value(*command, "--tracer", "LIST",
             fmt::format("Tracers: {} (default: all)", join_names(tracer_names())),
             [](const std::string& text) {

@@ -18,6 +18,7 @@ namespace lodestone::app {
 namespace {
 
 constexpr uint32_t max_spp = 65536;
+constexpr uint32_t max_sweeps = 1024;
 constexpr uint32_t max_threads = 4096;
 constexpr uint32_t max_resolution = 32768;  // of all charts together: 2^30 texels
 
@@ -194,6 +195,17 @@ void add_camera_option(CLI::App& app, std::string& camera) {
       "Camera of the scene, by name or number, or auto: one that sees the whole animation (default: the "
       "first, else auto)",
       [&](const std::string& text) { camera = parse_name("--camera", text); });
+}
+
+void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps) {
+  add_value(
+      app, "--relaxation-sweeps", "N",
+      "Let the texels of resampled charts move N times a frame to where the pose bends and stretches the "
+      "surface (default: 0; a .lode must have been baked with --keep-maps)",
+      [&](const std::string& text) {
+        sweeps = uint32_t(parse_count("--relaxation-sweeps", text, 0, max_sweeps));
+        scene.atlas.charts.keep_maps = sweeps > 0;
+      });
 }
 
 void add_picture_options(CLI::App& app, PictureOptions& options) {

@@ -70,6 +70,8 @@ struct PictureOptions {
   std::string camera;  // empty: the first, or auto
   render::Traversal traversal = render::Traversal::automatic;
 };
+// --relaxation-sweeps; where there are some, the atlas is to have the maps that they need.
+void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps);
 void add_size_option(CLI::App& app, Size& size);
 void add_seed_option(CLI::App& app, uint32_t& seed);
 void add_camera_option(CLI::App& app, std::string& camera);

@@ -130,6 +130,7 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
           {"texels_used_percent", texels_used(atlas)},
           {"stretch_mean", report.mapped_charts > 0 ? Json(report.mean_stretch) : Json(nullptr)},
           {"stretch_95th_percentile", report.mapped_charts > 0 ? Json(report.high_stretch) : Json(nullptr)},
+          {"map_bytes", atlas.maps.bytes()},
           {"notes", report.notes}};
 }
 

@@ -36,6 +36,7 @@ struct ParityOptions {
   PoseOptions pose;
   FrameOptions frames;
   PictureOptions picture = small_picture();
+  uint32_t relaxation_sweeps = 0;
   DeviceOptions device;
   std::optional<render::Fault> fault;
   std::string log;
@@ -84,6 +85,7 @@ void render_frames(const ParityOptions& options, const PreparedScene& prepared, 
   render::Settings settings;
   settings.width = options.picture.size.width;
   settings.height = options.picture.size.height;
+  settings.relaxation_sweeps = options.relaxation_sweeps;
   settings.spp = options.picture.spp;
   settings.seed = options.picture.seed;
   settings.traversal = options.picture.traversal;
@@ -157,6 +159,7 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
   add_scene_argument(*command, options->scene);
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
+  add_relaxation_option(*command, options->scene, options->relaxation_sweeps);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);
   add_pose_options(*command, options->pose);

@@ -88,6 +88,9 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
                         : baked ? ", atlas as baked"
                                 : ""));
   for (const std::string& note : report.notes) log::note(options.scene + ": " + note);
+  if (options.atlas.charts.keep_maps && report.mapped_charts == 0)
+    log::note(options.scene +
+              ": no chart is resampled, so --relaxation-sweeps moves nothing; use --atlas charts");
   return prepared;
 }
 

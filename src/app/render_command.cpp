@@ -35,6 +35,7 @@ struct RenderOptions {
   SceneOptions scene;
   PoseOptions pose;
   FrameOptions frames;
+  uint32_t relaxation_sweeps = 0;
   PictureOptions picture;
   DeviceOptions device;
   std::vector<std::string> aovs;
@@ -84,6 +85,7 @@ render::Settings settings_of(const RenderOptions& options) {
   render::Settings settings;
   settings.width = options.picture.size.width;
   settings.height = options.picture.size.height;
+  settings.relaxation_sweeps = options.relaxation_sweeps;
   settings.spp = options.picture.spp;
   settings.seed = options.picture.seed;
   settings.traversal = options.picture.traversal;
@@ -297,6 +299,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
   add_output_options(*command, *options);
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
+  add_relaxation_option(*command, options->scene, options->relaxation_sweeps);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);
   add_pose_options(*command, options->pose);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/geometry_image/chart_maps.h"
 #include "lodestone/layout/atlas.h"
 #include "lodestone/scene/assembly.h"
 #include "lodestone/scene/scene.h"
@@ -26,7 +27,8 @@ struct ChartSettings {
   uint64_t texel_budget = 0;  // for all such surfaces together; 0: about one a triangle
   Signal signal = Signal::area;
   bool all_shapes =
-      false;  // what any morph target stretches gets texels for that; else the rest pose decides
+      false;               // what any morph target stretches gets texels for that; else the rest pose decides
+  bool keep_maps = false;  // Atlas::maps; they change nothing else
   friend bool operator==(const ChartSettings&, const ChartSettings&) = default;
 };
 
@@ -65,6 +67,7 @@ struct Atlas {
   std::vector<layout::ChartRecord> charts;
   std::vector<glm::uvec4> texel_map;  // see layout/atlas.h
   std::vector<glm::uvec2> leaf_map;   // one a slot; the slots end with the last chart's block
+  ChartMaps maps;                     // of all mapped charts, or empty
   AtlasReport report;
 };
 

@@ -115,6 +115,8 @@ std::string find_fault(const Atlas& atlas) {
   if (atlas.depth != tree_depth(atlas.leaf_map.size())) return "a hierarchy of the wrong depth";
   if (const char* fault = charts_fault(atlas)) return fault;
   if (const char* fault = maps_fault(atlas)) return fault;
+  std::string fault = find_fault(atlas.maps, atlas.charts, atlas.texel_map, atlas.report.triangles);
+  if (!fault.empty()) return fault;
   if (atlas.kind != kind_of(atlas.charts)) return "charts of another kind than it says";
   return {};
 }

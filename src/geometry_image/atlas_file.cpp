@@ -3,9 +3,9 @@
 //
 //   magic "lodestn" and a control character that text editors do not keep, version, kind of content
 //   record: content hash (text), scene (text), height scale (float), the settings that were asked for
-//   kind, depth, number of charts, texels and slots, the report
-//   charts, texel map, leaf map: see packed_rows.h
-//   checksum: 32 hexadecimal digits over everything before
+//   kind, depth, number of charts, texels, slots, and of faces, points, pieces and texels of the charts'
+//   maps, the report charts, texel map, leaf map, and the maps of charts: see packed_rows.h checksum: 32
+//   hexadecimal digits over everything before
 #include "lodestone/geometry_image/atlas_file.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace lodestone::geometry_image {
 namespace {
 
 constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
-constexpr uint32_t version = 4;
+constexpr uint32_t version = 5;
 constexpr uint32_t content_atlas = 1;
 constexpr size_t checksum_digits = 32;
 
@@ -33,6 +33,7 @@ constexpr uint64_t max_slots = uint64_t(1) << (2 * layout::max_depth);
 constexpr uint64_t max_charts = max_slots;
 constexpr uint64_t max_texels = (uint64_t(1) << 31) - 1;
 constexpr uint64_t max_triangles = uint64_t(1) << 28;
+constexpr uint64_t max_map_faces = uint64_t(1) << 30;
 constexpr uint32_t longest_text = 4096;
 constexpr uint32_t most_notes = 64;
 
@@ -70,11 +71,13 @@ BakeRecord read_record(ByteReader& reader) {
     reader.fail("it was baked as an atlas of unknown kind");
   record.asked.kind = static_cast<AtlasKind>(asked);
   record.asked.charts.texel_budget = reader.number<uint64_t>();
-  const auto signal = reader.number<uint32_t>(), all_shapes = reader.number<uint32_t>();
-  if (signal > static_cast<uint32_t>(Signal::curvature) || all_shapes > 1)
+  const auto signal = reader.number<uint32_t>(), all_shapes = reader.number<uint32_t>(),
+             keep_maps = reader.number<uint32_t>();
+  if (signal > static_cast<uint32_t>(Signal::curvature) || all_shapes > 1 || keep_maps > 1)
     reader.fail("it was baked for an unknown signal");
   record.asked.charts.signal = static_cast<Signal>(signal);
   record.asked.charts.all_shapes = all_shapes == 1;
+  record.asked.charts.keep_maps = keep_maps == 1;
   return record;
 }
 
@@ -142,11 +145,16 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   writer.number(record.asked.charts.texel_budget);
   writer.number(static_cast<uint32_t>(record.asked.charts.signal));
   writer.number(static_cast<uint32_t>(record.asked.charts.all_shapes));
+  writer.number(static_cast<uint32_t>(record.asked.charts.keep_maps));
   writer.number(static_cast<uint32_t>(atlas.kind));
   writer.number(atlas.depth);
   writer.number(static_cast<uint64_t>(atlas.charts.size()));
   writer.number(static_cast<uint64_t>(atlas.texel_map.size()));
   writer.number(static_cast<uint64_t>(atlas.leaf_map.size()));
+  writer.number(static_cast<uint64_t>(atlas.maps.faces.size()));
+  writer.number(static_cast<uint64_t>(atlas.maps.points.size()));
+  writer.number(static_cast<uint64_t>(atlas.maps.pieces.size()));
+  writer.number(static_cast<uint64_t>(atlas.maps.face_of_texel.size()));
   for (uint64_t AtlasReport::*field : report_numbers) writer.number(atlas.report.*field);
   for (double AtlasReport::*field : report_stretches) writer.number(atlas.report.*field);
   writer.number(static_cast<uint32_t>(atlas.report.notes.size()));
@@ -154,6 +162,10 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   pack_rows(atlas.charts, writer);
   pack_rows(atlas.texel_map, writer);
   pack_rows(atlas.leaf_map, writer);
+  pack_rows(atlas.maps.faces, writer);
+  pack_rows(atlas.maps.points, writer);
+  pack_rows(atlas.maps.pieces, writer);
+  pack_rows(atlas.maps.face_of_texel, writer);
   const std::string sum = checksum(writer.written());
   writer.bytes(std::as_bytes(std::span(sum)));
   return writer.take();
@@ -168,10 +180,18 @@ Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, Ba
   const uint64_t charts = read_count(reader, max_charts);
   const uint64_t texels = read_count(reader, max_texels);
   const uint64_t slots = read_count(reader, max_slots);
+  const uint64_t map_faces = read_count(reader, max_map_faces);
+  const uint64_t map_points = read_count(reader, max_map_faces);
+  const uint64_t map_pieces = read_count(reader, max_map_faces);
+  const uint64_t map_texels = read_count(reader, max_texels);
   atlas.report = read_report(reader);
   atlas.charts = unpack_rows<layout::ChartRecord>(reader, charts);
   atlas.texel_map = unpack_rows<glm::uvec4>(reader, texels);
   atlas.leaf_map = unpack_rows<glm::uvec2>(reader, slots);
+  atlas.maps.faces = unpack_rows<layout::MapFace>(reader, map_faces);
+  atlas.maps.points = unpack_rows<glm::vec2>(reader, map_points);
+  atlas.maps.pieces = unpack_rows<layout::MapPiece>(reader, map_pieces);
+  atlas.maps.face_of_texel = unpack_rows<uint32_t>(reader, map_texels);
   if (!reader.at_end()) reader.fail("it goes on behind its end");
   const std::string fault = find_fault(atlas);
   if (!fault.empty()) reader.fail(("it has " + fault).c_str());

@@ -19,6 +19,7 @@ std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembl
   hash.add_value(settings.charts.texel_budget);
   hash.add_value(settings.charts.signal);
   hash.add_value(settings.charts.all_shapes);
+  hash.add_value(settings.charts.keep_maps);
   // Triangles, and what decides which vertices are one point.
   hash.add_array(assembly.placements);
   hash.add_array(assembly.parts);

@@ -135,6 +135,10 @@ void chart_surface(const scene::Scene& scene, const scene::Assembly& assembly, c
   }
   for (const glm::uvec4& texel : mapped.texels)
     atlas.texel_map.push_back(texel + glm::uvec4(0, 0, 0, first_chart));
+  if (!mapped.maps.empty()) {
+    atlas.maps.face_of_texel.assign(first_texel, layout::no_index);
+    atlas.maps.append(mapped.maps);
+  }
   if (atlas.charts.empty()) {
     fail_input(scene.name, "none of its {} triangles has an area in any pose; there is nothing to draw",
                assembly.triangles.size());

@@ -19,6 +19,7 @@
 #include "lodestone/geometry_image/chart_seams.h"
 #include "lodestone/geometry_image/chart_sizes.h"
 #include "lodestone/geometry_image/chart_stretch.h"
+#include "lodestone/geometry_image/kept_map.h"
 #include "lodestone/geometry_image/profile_maker.h"
 #include "lodestone/geometry_image/shape_metrics.h"
 #include "lodestone/geometry_image/texel_values.h"
@@ -268,6 +269,7 @@ class ChartMaker {
     result.texels.resize(texels);
     const ChartSampler sampler(complex, assembly_, welded_, triangles_, sizes);
     std::vector<ChartStretch> stretch(sizes.size());
+    std::vector<ChartMaps> maps(settings_.keep_maps ? sizes.size() : 0);
     const std::vector<uint32_t> failed = for_each_cell(sizes.size(), [&](uint32_t c) {
       const CellMap map = map_cell(complex, c, sampler.rectangle(c), shapes_of(complex, c), {});
       stretch[c] = chart_stretch(map, face_shapes(complex, c), uint64_t(sizes[c].width) * sizes[c].height);
@@ -275,7 +277,10 @@ class ChartMaker {
       if (may_split && large && stretch[c].unevenness > too_uneven) throw NotMappable{};
       glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
       for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
+      if (settings_.keep_maps)
+        maps[c] = keep_map(complex, c, map, triangles_, sizes[c].width() + 1, sizes[c].height() + 1);
     });
+    for (const ChartMaps& map : maps) result.maps.append(map);
     for (uint32_t c = 0; c < sizes.size(); ++c) result.repeated_texels += sampler.repeated(c);
     const StretchSummary summary = sum_up(stretch);
     result.mean_stretch = summary.mean;

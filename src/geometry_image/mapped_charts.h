@@ -16,6 +16,7 @@ namespace lodestone::geometry_image {
 struct MappedCharts {
   std::vector<layout::ChartRecord> charts;  // first_texel counts from the first of them
   std::vector<glm::uvec4> texels;           // as in the texel map; charts numbered from 0
+  ChartMaps maps;                           // where they are to be kept
   std::vector<uint32_t> left_out;           // triangles that have to become exact charts, ascending
   uint64_t repeated_texels = 0;
   double mean_stretch = 0, high_stretch = 0;  // as in AtlasReport

@@ -3,6 +3,7 @@
 
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
+#include "lodestone/layout/relax.h"
 #include "lodestone/layout/trace.h"
 
 namespace lodestone::render::passes {
@@ -19,6 +20,22 @@ constexpr Binding blend_bindings[] = {
     {"morph_tangents", quad, read}, {"influences", word, read},      {"weights", word, read},
     {"matrices", quad, read},       {"positions", quad, write},      {"normals", quad, write},
     {"tangents", quad, write}};
+
+constexpr Binding relax_begin_bindings[] = {{"texel_map", quad, read},      {"triangles", quad, read},
+                                            {"positions", quad, read},      {"charts", quad, read},
+                                            {"rest_positions", quad, read}, {"face_of_texel", word, read},
+                                            {"relaxed_map", quad, write},   {"sites", quad, write},
+                                            {"now", quad, write},           {"was", quad, write}};
+
+constexpr Binding relax_measure_bindings[] = {{"inner_texels", word, read}, {"charts", quad, read},
+                                              {"relaxed_map", quad, read},  {"now", quad, read},
+                                              {"was", quad, read},          {"sites", quad, read_write}};
+
+constexpr Binding relax_move_bindings[] = {
+    {"inner_texels", word, read}, {"charts", quad, read},         {"triangles", quad, read},
+    {"positions", quad, read},    {"rest_positions", quad, read}, {"map_faces", quad, read},
+    {"map_points", word, read},   {"map_pieces", word, read},     {"relaxed_map", quad, read_write},
+    {"sites", quad, read_write},  {"now", quad, read_write},      {"was", quad, write}};
 
 constexpr Binding rasterise_bindings[] = {{"texel_map", quad, read}, {"triangles", quad, read},
                                           {"positions", quad, read}, {"normals", quad, read},
@@ -84,6 +101,10 @@ using namespace layout;
 
 const PassDecl links{"links", "geometry_image/links", links_bindings, sizeof(LinksPush)};
 const PassDecl blend{"blend", "geometry_image/blend", blend_bindings, sizeof(BlendPush)};
+const PassDecl relax_begin{"relax", "geometry_image/relax_begin", relax_begin_bindings, sizeof(CountPush)};
+const PassDecl relax_measure{"relax", "geometry_image/relax_measure", relax_measure_bindings,
+                             sizeof(RelaxPush)};
+const PassDecl relax_move{"relax", "geometry_image/relax_move", relax_move_bindings, sizeof(RelaxPush)};
 const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bindings, sizeof(CountPush)};
 const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings,
                              sizeof(BoundsPush)};

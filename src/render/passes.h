@@ -7,7 +7,8 @@
 
 namespace lodestone::render::passes {
 
-extern const PassDecl links, blend, rasterise, bounds_leaves, bounds, wide_nodes;
+extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rasterise, bounds_leaves, bounds,
+    wide_nodes;
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, occlude_threaded, occlude_octant,
     occlude_wide;
 extern const PassDecl mask, shade, accumulate, aov, resolve;

@@ -12,6 +12,7 @@
 #include "lodestone/render/film.h"
 #include "lodestone/render/hierarchy_levels.h"
 #include "lodestone/render/passes.h"
+#include "lodestone/render/relaxation.h"
 #include "lodestone/render/scene_tables.h"
 #include "lodestone/render/view.h"
 #include "lodestone/scene/pose_reach.h"
@@ -51,6 +52,7 @@ struct Renderer::State {
   HierarchyLevels levels;
   SceneTables tables;
   scene::PoseReach reach;
+  std::optional<Relaxation> relaxation;
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
@@ -76,7 +78,7 @@ struct Renderer::State {
 
   std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
     std::vector<BufferId> ids = {
-        rays.hits.id(),        geometry.id(),         normal_map.id(),        tables.texel_map.id(),
+        rays.hits.id(),        geometry.id(),         normal_map.id(),        texel_map(),
         tables.triangles.id(), positions.id(),        normals.id(),           tangents.id(),
         tables.texcoords.id(), tables.images.id(),    tables.srgb_table.id(), tables.charts.id(),
         tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id()};
@@ -84,7 +86,12 @@ struct Renderer::State {
     return ids;
   }
 
+  // Of this frame.
+  BufferId texel_map() const { return relaxation ? relaxation->texel_map() : tables.texel_map.id(); }
+
   void build_links();
+  void prepare_relaxation();
+  void blend(const scene::Pose& pose, const Buffer& blended_positions);
   void update(const scene::Pose& pose);
   void build_bounds();
   void begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count);
@@ -140,7 +147,19 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
   build_links();
+  if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0) prepare_relaxation();
   setup = device.finish();
+}
+
+void Renderer::State::prepare_relaxation() {
+  if (atlas.maps.empty()) {
+    fail(ExitCode::usage, "--relaxation-sweeps",
+         "needs the maps of the charts, and the atlas of {} has none; bake it with --keep-maps", scene.name);
+  }
+  // By the same pass as every pose, so that the rest pose has stretched nothing, to the bit.
+  Buffer rest_positions(backend, {"rest_positions", assembly.positions.size(), 16});
+  blend(scene::evaluate(scene, scene::none, 0), rest_positions);
+  relaxation.emplace(backend, tables, atlas, std::move(rest_positions));
 }
 
 void Renderer::State::build_links() {
@@ -153,8 +172,7 @@ void Renderer::State::build_links() {
   }
 }
 
-// blend, rasterise, bounds: everything that follows from the pose.
-void Renderer::State::update(const scene::Pose& pose) {
+void Renderer::State::blend(const scene::Pose& pose, const Buffer& blended_positions) {
   reach.check(scene, pose);
   const std::vector<float> frame_weights = scene::frame_weights(scene, assembly, pose);
   const std::vector<glm::vec4> frame_matrices = scene::frame_matrices(scene, assembly, pose);
@@ -164,13 +182,18 @@ void Renderer::State::update(const scene::Pose& pose) {
   run(passes::blend,
       {tables.base_positions.id(), tables.base_normals.id(), tables.base_tangents.id(),
        tables.vertex_ranges.id(), tables.morph_positions.id(), tables.morph_normals.id(),
-       tables.morph_tangents.id(), tables.influences.id(), weights.id(), matrices.id(), positions.id(),
-       normals.id(), tangents.id()},
+       tables.morph_tangents.id(), tables.influences.id(), weights.id(), matrices.id(),
+       blended_positions.id(), normals.id(), tangents.id()},
       layout::BlendPush{vertices, assembly.has_tangents ? 1u : 0u}, vertices);
+}
+
+// blend, relax, rasterise, bounds: everything that follows from the pose.
+void Renderer::State::update(const scene::Pose& pose) {
+  blend(pose, positions);
+  if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
   const auto texels = static_cast<uint32_t>(atlas.texel_map.size());
   run(passes::rasterise,
-      {tables.texel_map.id(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(),
-       normal_map.id()},
+      {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
       layout::CountPush{texels}, texels);
   build_bounds();
 }
@@ -337,6 +360,12 @@ Traversal Renderer::traversal() const {
 }
 void Renderer::update(const scene::Pose& pose) {
   state_->update(pose);
+}
+
+std::vector<glm::uvec4> Renderer::texel_map() {
+  std::vector<glm::uvec4> texels(state_->atlas.texel_map.size());
+  state_->backend.download(state_->texel_map(), std::as_writable_bytes(std::span(texels)), 0);
+  return texels;
 }
 
 void Renderer::load_rays(const std::vector<glm::vec4>& rays) {

@@ -32,6 +32,9 @@ struct Settings {
   float exposure = 0;             // stops
   std::vector<std::string> aovs;  // of: depth normal albedo uv id lod steps
   uint32_t loop_budget = 4000;    // traversal steps of one dispatch; see trace.h
+  // Of the texels of mapped charts, every frame, before the hierarchy is built: they go where the pose
+  // stretches the surface. Other charts stay as they are.
+  uint32_t relaxation_sweeps = 0;
 };
 
 // A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y
@@ -58,6 +61,7 @@ struct FrameResult {
 class Renderer {
  public:
   // Uploads everything static and runs `links`. The scene, assembly and atlas must outlive the renderer.
+  // Throws Error(usage) where sweeps are wanted of mapped charts whose maps the atlas does not have.
   Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
            const geometry_image::Atlas& atlas, const Settings& settings);
   ~Renderer();
@@ -69,9 +73,11 @@ class Renderer {
   std::vector<PassRecord> setup_passes() const;  // the records of `links`
   Traversal traversal() const;                   // what `automatic` became
 
-  // The pieces of a frame, for benchmarks: blend, rasterise and bounds; then given rays (two vec4 each:
+  // The pieces of a frame, for benchmarks: blend, relax, rasterise and bounds, and the texel map that they
+  // were for; then given rays (two vec4 each:
   // origin and tmin, direction and tmax) against the hierarchy, closest hit, results t u v primitive.
   void update(const scene::Pose& pose);
+  std::vector<glm::uvec4> texel_map();
   void load_rays(const std::vector<glm::vec4>& rays);
   void trace_loaded();
   std::vector<glm::uvec4> hits();
