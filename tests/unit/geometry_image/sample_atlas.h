@@ -56,6 +56,10 @@ inline void expect_equal(const Atlas& a, const Atlas& b) {
   }
   EXPECT_EQ(a.texel_map, b.texel_map);
   EXPECT_EQ(a.leaf_map, b.leaf_map);
+  EXPECT_EQ(a.maps.face_of_texel, b.maps.face_of_texel);
+  EXPECT_EQ(a.maps.points, b.maps.points);
+  EXPECT_EQ(a.maps.faces.size(), b.maps.faces.size());
+  EXPECT_EQ(a.maps.pieces.size(), b.maps.pieces.size());
   EXPECT_EQ(a.report.triangles, b.report.triangles);
   EXPECT_EQ(a.report.quads, b.report.quads);
   EXPECT_EQ(a.report.texels, b.report.texels);
