@@ -14,12 +14,9 @@ layout(constant_id = 1) const uint counting = 0u;
 uint words_read = 0u;
 uint words_written = 0u;
 
-void count_read(uint words) {
-  if (counting != 0u) words_read += words;
-}
-void count_write(uint words) {
-  if (counting != 0u) words_written += words;
-}
+// `counting` is 0 or 1. No branches: SwiftShader's time to compile a loop grows exponentially with them.
+void count_read(uint words) { words_read += counting * words; }
+void count_write(uint words) { words_written += counting * words; }
 
 #if LODESTONE_TEXEL_BUFFERS
 #define QUADS(slot, access, name) layout(set = 0, binding = slot, rgba32ui) uniform access uimageBuffer name

@@ -18,40 +18,41 @@ class RelaxMove : public Kernel<Probe> {
     const uint32_t chart = this->load(relaxed_map_, texel).w;
     const uint32_t width = this->load(charts_, 2 * uint64_t(chart - 1)).y;
     const Site own = load_site(texel);
+    center_ = as_vec3(this->load(now_, texel));
+    scale_ = 0;
     glm::vec2 sum(0);
     float weights = 0;
-    glm::vec3 points[layout::relax_neighbors];
     for (uint32_t k = 0; k < layout::relax_neighbors; ++k) {
       const uint32_t neighbor = layout::relax_neighbor(texel, width, k);
       const Site site = load_site(neighbor);
       around_[k] = site.at;
-      points[k] = as_vec3(this->load(now_, neighbor));
+      points_[k] = as_vec3(this->load(now_, neighbor));
+      scale_ = layout::max2(scale_, layout::largest_abs(layout::flush_tiny3(points_[k] - center_)));
       const float weight = own.weight + (site.face == layout::no_index ? own.weight : site.weight);
       sum = sum + site.at * weight;
       weights = weights + weight;
     }
-    glm::vec2 step = (glm::vec2(sum.x / weights, sum.y / weights) - own.at) * layout::relax_gain;
-    if (!is_long(step)) return;
-    center_ = as_vec3(this->load(now_, texel));
-    ring_ = layout::relax_ring(center_, points);
-    if (!(ring_.scale > 0)) return;
-    const float error = error_round(own.at, own.face, glm::vec3(0));
-    for (uint32_t i = 0; i < layout::relax_attempts && is_long(step); ++i, step = step * 0.5f) {
-      const glm::vec2 to = own.at + step;
-      if (!keeps_lattice(to)) continue;
+    glm::vec2 way = (glm::vec2(sum.x / weights, sum.y / weights) - own.at) * layout::relax_gain;
+    if (!is_long(way) || !(scale_ > 0)) return;
+    for (glm::vec3& point : points_) point = layout::relax_seen(point, center_, scale_);
+    // First the place where it is, then others.
+    float least = 0;
+    glm::vec2 to = own.at;
+    for (uint32_t i = 0; i <= layout::relax_attempts && is_long(way); ++i) {
+      if (i > 0) {
+        to = own.at + way;
+        way = way * 0.5f;
+        if (!keeps_lattice(to)) continue;
+      }
       const Place place = find(own.face, to);
       if (place.face == layout::no_index) continue;
-      const glm::vec3 now = point(positions_, place);
-      if (!(error_round(to, place.face, seen(now)) < error)) continue;
-      this->store(
-          relaxed_map_, texel,
-          {place.triangle, layout::floatBitsToUint(place.at.x), layout::floatBitsToUint(place.at.y), chart});
-      this->store(sites_, texel,
-                  {layout::floatBitsToUint(to.x), layout::floatBitsToUint(to.y), place.face,
-                   layout::floatBitsToUint(own.weight)});
-      this->store(now_, texel, as_bits(now, 0));
-      this->store(was_, texel, as_bits(point(rest_positions_, place), 0));
-      return;
+      const float error = error_round(to, own.face, seen(point_at(positions_, place)));
+      if (i == 0) {
+        least = error;
+      } else if (error < least) {
+        put(texel, chart, own, to, place);
+        return;
+      }
     }
   }
 
@@ -78,16 +79,27 @@ class RelaxMove : public Kernel<Probe> {
             layout::uintBitsToFloat(this->load(map_points_, 2 * uint64_t(p) + 1))};
   }
 
-  glm::vec3 point(const Quads& vertices, const Place& place) {
+  glm::vec3 point_at(const Quads& vertices, const Place& place) {
     const glm::uvec4 corners = this->load(triangles_, place.triangle);
     return texel_point(*this, vertices, corners,
                        {0, layout::floatBitsToUint(place.at.x), layout::floatBitsToUint(place.at.y), 0});
   }
 
+  void put(uint32_t texel, uint32_t chart, const Site& own, const glm::vec2& to, const Place& place) {
+    this->store(
+        relaxed_map_, texel,
+        {place.triangle, layout::floatBitsToUint(place.at.x), layout::floatBitsToUint(place.at.y), chart});
+    this->store(sites_, texel,
+                {layout::floatBitsToUint(to.x), layout::floatBitsToUint(to.y), place.face,
+                 layout::floatBitsToUint(own.weight)});
+    this->store(now_, texel, as_bits(point_at(positions_, place), 0));
+    this->store(was_, texel, as_bits(point_at(rest_positions_, place), 0));
+  }
+
   static bool is_long(const glm::vec2& step) {
     return layout::max2(layout::abs1(step.x), layout::abs1(step.y)) >= layout::relax_least_step;
   }
-  glm::vec3 seen(const glm::vec3& p) const { return layout::relax_seen(p, center_, ring_.scale); }
+  glm::vec3 seen(const glm::vec3& p) const { return layout::relax_seen(p, center_, scale_); }
 
   // Whether the triangles of the lattice round the texel are all of an area, the right way round.
   bool keeps_lattice(const glm::vec2& to) const {
@@ -106,8 +118,7 @@ class RelaxMove : public Kernel<Probe> {
       const uint32_t n = k == 5 ? 0 : k + 1;
       const Place middle = find(face, (at + around_[k] + around_[n]) * 0.33333333f);
       if (middle.face == layout::no_index) continue;
-      sum = sum +
-            layout::relax_error(center, ring_.points[k], ring_.points[n], seen(point(positions_, middle)));
+      sum = sum + layout::relax_error(center, points_[k], points_[n], seen(point_at(positions_, middle)));
     }
     return sum;
   }
@@ -159,10 +170,11 @@ class RelaxMove : public Kernel<Probe> {
   Quads relaxed_map_ = this->quads(8), sites_ = this->quads(9), now_ = this->quads(10),
         was_ = this->quads(11);
   layout::RelaxPush push_ = this->template push<layout::RelaxPush>();
-  // Of the texel at hand: where its neighbours are in the rectangle, and on the surface.
+  // Of the texel at hand: where its neighbours are in the rectangle, and on the surface, seen from it.
   glm::vec2 around_[layout::relax_neighbors];
-  layout::RelaxRing ring_{};
+  glm::vec3 points_[layout::relax_neighbors];
   glm::vec3 center_{0};
+  float scale_ = 0;
 };
 
 LODESTONE_BLOCK_FUNCTION(static, relax_move, RelaxMove)

@@ -35,10 +35,9 @@ struct Place {
   vec2 at;  // barycentrics 1 and 2
 };
 
-// Of the texel at hand: where its neighbours are in the rectangle, and on the surface.
+// Of the texel at hand: where its neighbours are in the rectangle, and on the surface, seen from it.
 vec2 around[6];
-RelaxRing ring;
-vec3 center;
+vec3 points[6];
 
 Site load_site(uint texel) {
   uvec4 bits;
@@ -92,18 +91,26 @@ Place find(uint face, vec2 to) {
     vec2 p1 = load_point(corners.y);
     vec2 p2 = load_point(corners.z);
     vec3 side = vec3(relax_side(to, p1, p2), relax_side(to, p2, p0), relax_side(to, p0, p1));
-    if (side.x >= 0.0 && side.y >= 0.0 && side.z >= 0.0) {
-      float all = side.x + side.y + side.z;
-      if (!(all > 0.0)) return place;
-      place.face = face;
-      place.triangle = corners.w;
-      place.at = on_triangle(vec3(side.x / all, side.y / all, side.z / all), beside.w);
-      return place;
-    }
     // Over the edge that it is farthest outside of. Edge k runs from corner k to the next, so it is the one opposite to
     // corner k + 2.
-    face = side.z <= side.x && side.z <= side.y ? beside.x : side.x <= side.y ? beside.y : beside.z;
-    if (face == no_index) return place;
+    float least = min2(side.x, side.y);
+    uint beside_x = beside.x;
+    uint beside_y = beside.y;
+    uint beside_z = beside.z;
+    uint other = side.x <= side.y ? beside_y : beside_z;
+    uint next = side.z <= least ? beside_x : other;
+    bool inside = min2(least, side.z) >= 0.0;
+    if (inside) {
+      float all = side.x + side.y + side.z;
+      if (all > 0.0) {
+        place.face = face;
+        place.triangle = corners.w;
+        place.at = on_triangle(vec3(side.x / all, side.y / all, side.z / all), beside.w);
+      }
+      next = no_index;
+    }
+    face = next;
+    if (face == no_index) break;
   }
   return place;
 }
@@ -118,22 +125,6 @@ bool keeps_lattice(vec2 to) {
   return true;
 }
 
-// Of the triangles round the texel, if it were at a place of the rectangle, and there `point` of the surface, seen as the
-// ring is.
-float error_round(vec2 at, uint face, vec3 point) {
-  float sum = 0.0;
-  for (uint k = 0u; k < relax_neighbors; ++k) {
-    uint n = k == 5u ? 0u : k + 1u;
-    Place middle = find(face, (at + around[k] + around[n]) * 0.33333333);
-    if (middle.face == no_index) continue;
-    uvec4 source = texel_entry(middle, 0u);
-    vec3 there;
-    TEXEL_POINT(there, positions, source);
-    sum = sum + relax_error(point, ring.points[k], ring.points[n], relax_seen(there, center, ring.scale));
-  }
-  return sum;
-}
-
 void move(uint texel) {
   uvec4 source;
   LOAD4(source, relaxed_map, texel);
@@ -142,41 +133,71 @@ void move(uint texel) {
   Site own = load_site(texel);
   vec2 sum = vec2(0.0, 0.0);
   float weights = 0.0;
-  vec3 points[6];
   uvec4 bits;
+  LOAD4(bits, now, texel);
+  vec3 center = as_vec3(bits);
+  float scale = 0.0;
   for (uint k = 0u; k < relax_neighbors; ++k) {
     uint neighbor = relax_neighbor(texel, chart.y, k);
     Site site = load_site(neighbor);
     around[k] = site.at;
     LOAD4(bits, now, neighbor);
     points[k] = as_vec3(bits);
-    float weight = own.weight + (site.face == no_index ? own.weight : site.weight);
+    scale = max2(scale, largest_abs(flush_tiny3(points[k] - center)));
+    float own_weight = own.weight;
+    float site_weight = site.weight;
+    float weight = own_weight + (site.face == no_index ? own_weight : site_weight);
     sum = sum + site.at * weight;
     weights = weights + weight;
   }
   vec2 way = (vec2(sum.x / weights, sum.y / weights) - own.at) * relax_gain;
-  if (!is_long(way)) return;
-  LOAD4(bits, now, texel);
-  center = as_vec3(bits);
-  ring = relax_ring(center, points);
-  if (!(ring.scale > 0.0)) return;
-  float error = error_round(own.at, own.face, vec3(0.0, 0.0, 0.0));
-  for (uint i = 0u; i < relax_attempts && is_long(way); ++i) {
-    vec2 to = own.at + way;
-    way = way * 0.5;
-    if (!keeps_lattice(to)) continue;
-    Place place = find(own.face, to);
+  if (!is_long(way) || !(scale > 0.0)) return;
+  for (uint k = 0u; k < relax_neighbors; ++k) points[k] = relax_seen(points[k], center, scale);
+  // First the place where it is, then others. (The search stands here once: SwiftShader takes minutes to compile many.)
+  float least = 0.0;
+  vec2 to = own.at;
+  for (uint i = 0u; i <= relax_attempts && is_long(way); ++i) {
+    if (i > 0u) {
+      to = own.at + way;
+      way = way * 0.5;
+      if (!keeps_lattice(to)) continue;
+    }
+    Place place = Place(no_index, 0u, vec2(0.0, 0.0));
+    vec3 center_there = vec3(0.0, 0.0, 0.0);
+    float error = 0.0;
+    for (uint k = 0u; k <= relax_neighbors; ++k) {
+      // At 0 the texel itself, then the middles of the triangles round it.
+      uint before = k - 1u;
+      uint a = k == 0u ? 5u : before;
+      uint b = k == 6u ? 0u : k;
+      vec2 middle = (to + around[a] + around[b]) * 0.33333333;
+      Place found = find(own.face, k == 0u ? to : middle);
+      if (k == 0u) place = found;
+      if (place.face == no_index) break;
+      if (found.face == no_index) continue;
+      uvec4 entry = texel_entry(found, 0u);
+      vec3 point;
+      TEXEL_POINT(point, positions, entry);
+      point = relax_seen(point, center, scale);
+      if (k == 0u)
+        center_there = point;
+      else
+        error = error + relax_error(center_there, points[a], points[b], point);
+    }
     if (place.face == no_index) continue;
-    uvec4 entry = texel_entry(place, source.w);
-    vec3 point;
-    TEXEL_POINT(point, positions, entry);
-    if (!(error_round(to, place.face, relax_seen(point, center, ring.scale)) < error)) continue;
-    STORE4(relaxed_map, texel, entry);
-    STORE4(sites, texel, uvec4(floatBitsToUint(to.x), floatBitsToUint(to.y), place.face, floatBitsToUint(own.weight)));
-    STORE4(now, texel, as_bits(point, 0u));
-    TEXEL_POINT(point, rest_positions, entry);
-    STORE4(was, texel, as_bits(point, 0u));
-    return;
+    if (i == 0u) {
+      least = error;
+    } else if (error < least) {
+      uvec4 entry = texel_entry(place, source.w);
+      vec3 point;
+      STORE4(relaxed_map, texel, entry);
+      STORE4(sites, texel, uvec4(floatBitsToUint(to.x), floatBitsToUint(to.y), place.face, floatBitsToUint(own.weight)));
+      TEXEL_POINT(point, positions, entry);
+      STORE4(now, texel, as_bits(point, 0u));
+      TEXEL_POINT(point, rest_positions, entry);
+      STORE4(was, texel, as_bits(point, 0u));
+      return;
+    }
   }
 }
 

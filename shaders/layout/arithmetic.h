@@ -24,7 +24,8 @@ FN vec1 saturate(vec1 x) {
   return min2(max2(x, 0.0f), 1.0f);
 }
 FN vec1 abs1(vec1 x) {
-  return select(x < 0.0f, -x, x);
+  vec1 negated = -x;  // a name, for which a compiler needs no branch
+  return select(x < 0.0f, negated, x);
 }
 FN vec3 min3(vec3 a, vec3 b) {
   return vec3(min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z));

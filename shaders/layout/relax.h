@@ -56,13 +56,17 @@ FN float relax_side(vec2 p, vec2 a, vec2 b) {
   return to_a.x * to_b.y - to_a.y * to_b.x;
 }
 
-// The neighbours of a texel in the lattice, whose quads are two triangles each, counterclockwise.
+// The neighbours of a texel in the lattice, whose quads are two triangles each, counterclockwise. (Selects
+// between names: SwiftShader's time to compile grows exponentially with branches.)
 FN uint relax_neighbor(uint texel, uint width, uint k) {
-  if (k == 0u) return texel + 1u;
-  if (k == 1u) return texel + width;
-  if (k == 2u) return texel + width - 1u;
-  if (k == 3u) return texel - 1u;
-  return k == 4u ? texel - width : texel - width + 1u;
+  uint half_ring = k < 3u ? 0u : 3u;
+  uint turn = k - half_ring;
+  uint aside = width - 1u;
+  uint row = turn == 1u ? width : aside;
+  uint way = turn == 0u ? 1u : row;
+  uint ahead = texel + way;
+  uint back = texel - way;
+  return k < 3u ? ahead : back;
 }
 
 // A point as seen from another one, in units of `scale`: no product of three such numbers leaves the range of
