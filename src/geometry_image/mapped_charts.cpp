@@ -278,7 +278,7 @@ class ChartMaker {
       glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
       for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
       if (settings_.keep_maps)
-        maps[c] = keep_map(complex, c, map, triangles_, sizes[c].width() + 1, sizes[c].height() + 1);
+        maps[c] = keep_map(complex, c, map, triangles_, sizes[c].width + 1, sizes[c].height + 1);
     });
     for (const ChartMaps& map : maps) result.maps.append(map);
     for (uint32_t c = 0; c < sizes.size(); ++c) result.repeated_texels += sampler.repeated(c);
