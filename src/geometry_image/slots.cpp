@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/slots.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -13,12 +14,38 @@ namespace {
 
 constexpr uint64_t slot_limit = uint64_t(1) << (2 * layout::max_depth);
 
+uint64_t block_of(const layout::ChartRecord& chart, uint64_t least) {
+  const uint64_t own = QuadOrder::block_slots(chart);
+  return chart.kind == layout::chart_mapped ? std::max(own, least) : own;
+}
+
+uint64_t slots_of(const std::vector<layout::ChartRecord>& charts, uint64_t least) {
+  uint64_t slots = 0;
+  for (const layout::ChartRecord& chart : charts) slots += block_of(chart, least);
+  return slots;
+}
+
+// The least block of a mapped chart. Small ones lie here and there on the surface: nodes that only they share
+// are boxes round all of it, a second tree that nearly every ray goes through. With as many slots as others
+// have, most of them empty, each stands beside the charts that it lies beside.
+uint64_t least_block(const std::vector<layout::ChartRecord>& charts) {
+  constexpr double dearest = 1.2;  // times as many slots
+  const uint64_t tight = slots_of(charts, 1);
+  const auto most = static_cast<uint64_t>(dearest * double(tight));
+  uint64_t least = 1;
+  for (uint64_t block = 2; block <= tight; block *= 2) {
+    const uint64_t slots = slots_of(charts, block);
+    if (slots > most || tree_depth(slots) > tree_depth(tight)) break;
+    least = block;
+  }
+  return least;
+}
+
 }  // namespace
 
 uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers,
                       ChartOrder order, const std::string& subject) {
-  uint64_t slots = 0;
-  for (const layout::ChartRecord& chart : charts) slots += QuadOrder::block_slots(chart);
+  const uint64_t least = least_block(charts), slots = slots_of(charts, least);
   if (slots > slot_limit) {
     fail_input(subject,
                "needs a hierarchy of {} leaf slots for {} charts, and {} is the most; draw fewer meshes, or "
@@ -28,7 +55,7 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
   // Nodes of 4^k slots, by k: charts that fill one, and charts of which two do.
   std::array<std::vector<ChartCenter>, layout::max_depth + 1> whole, halves;
   for (uint32_t i = 0; i < charts.size(); ++i) {
-    const auto bits = static_cast<size_t>(std::bit_width(QuadOrder::block_slots(charts[i])) - 1);
+    const auto bits = static_cast<size_t>(std::bit_width(block_of(charts[i], least)) - 1);
     (bits % 2 == 0 ? whole : halves)[(bits + 1) / 2].push_back(
         {centers.empty() ? glm::vec3(0) : centers[i], i});
   }

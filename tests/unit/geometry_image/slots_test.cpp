@@ -104,6 +104,37 @@ TEST(QuadOrder, WastesLittleOnThinCharts) {
   EXPECT_EQ(QuadOrder::block_slots(grid_chart(1, 1)), 1u);
 }
 
+layout::ChartRecord mapped_chart(uint32_t width, uint32_t height) {
+  layout::ChartRecord chart = grid_chart(width, height);
+  chart.kind = layout::chart_mapped;
+  return chart;
+}
+
+TEST(Slots, GiveSmallMappedChartsMoreThanTheyFillWhereThatIsCheap) {
+  std::vector<layout::ChartRecord> charts(40, mapped_chart(16, 16));
+  charts.resize(46, mapped_chart(2, 2));
+  charts.push_back(grid_chart(2, 2));
+  const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
+  const uint64_t slots = assign_slots(charts, centers, ChartOrder::median, "test");
+  EXPECT_EQ(charts[40].slot_count, 256u);
+  EXPECT_EQ(charts[46].slot_count, 4u) << "a grid keeps its own block";
+  EXPECT_EQ(slots, 46u * 256u + 4u);
+  for (const layout::ChartRecord& chart : charts) {
+    uint32_t quads = 0;
+    for (uint32_t s = 0; s < chart.slot_count; ++s)
+      quads += leaf_entry(chart, s).x == layout::empty_slot ? 0 : 1;
+    EXPECT_EQ(quads, (chart.width - 1) * (chart.height - 1)) << "once each, and nothing behind them";
+  }
+}
+
+TEST(Slots, GiveSmallMappedChartsNoMoreWhereThereAreMany) {
+  std::vector<layout::ChartRecord> charts(10, mapped_chart(16, 16));
+  charts.resize(1000, mapped_chart(2, 2));
+  const uint64_t slots =
+      assign_slots(charts, std::vector<glm::vec3>(charts.size(), glm::vec3(0)), ChartOrder::median, "test");
+  EXPECT_EQ(slots, 10u * 256u + 990u * 4u);
+}
+
 TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
   for (uint32_t count = 1; count < 60; ++count) {
     std::vector<layout::ChartRecord> charts;
