@@ -125,11 +125,13 @@ void add_atlas_options(CLI::App& app, SceneOptions& options) {
             })
       ->excludes(resolution);
   add_value(app, "--signal", "NAME",
-            "With --atlas charts or auto: what gets more texels, area (even spacing, default) or curvature "
-            "(what bends)",
+            "With --atlas charts or auto: what gets more texels, area (even spacing, default), curvature "
+            "(what bends) or screen (what looks larger from the scene's cameras in the rest pose)",
             [&](const std::string& text) {
-              parse_choice("--signal", text, {"area", "curvature"});
-              options.atlas.charts.signal = text == "area" ? Signal::area : Signal::curvature;
+              parse_choice("--signal", text, {"area", "curvature", "screen"});
+              options.atlas.charts.signal = text == "area"        ? Signal::area
+                                            : text == "curvature" ? Signal::curvature
+                                                                  : Signal::screen;
             });
   app.add_flag("--all-shapes", options.atlas.charts.all_shapes,
                "With --atlas charts or auto: resample for what every morph target stretches, not for the "

@@ -19,8 +19,9 @@ namespace lodestone::geometry_image {
 
 enum class AtlasKind : uint32_t { automatic, grid, exact, charts };
 
-// Where a resampled surface gets more texels: spread evenly over its area, or more where it bends.
-enum class Signal : uint32_t { area, curvature };
+// Where a resampled surface gets more texels: spread evenly over its area, or more where it bends, or where
+// it looks larger from the cameras of the scene.
+enum class Signal : uint32_t { area, curvature, screen };
 
 // How surfaces that have no grid of their own are resampled.
 struct ChartSettings {

@@ -73,7 +73,7 @@ BakeRecord read_record(ByteReader& reader) {
   record.asked.charts.texel_budget = reader.number<uint64_t>();
   const auto signal = reader.number<uint32_t>(), all_shapes = reader.number<uint32_t>(),
              keep_maps = reader.number<uint32_t>();
-  if (signal > static_cast<uint32_t>(Signal::curvature) || all_shapes > 1 || keep_maps > 1)
+  if (signal > static_cast<uint32_t>(Signal::screen) || all_shapes > 1 || keep_maps > 1)
     reader.fail("it was baked for an unknown signal");
   record.asked.charts.signal = static_cast<Signal>(signal);
   record.asked.charts.all_shapes = all_shapes == 1;

@@ -38,6 +38,16 @@ std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembl
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   hash.add_array(scene::frame_weights(scene, assembly, rest));
   hash.add_array(scene::frame_matrices(scene, assembly, rest));
+  if (settings.charts.signal == Signal::screen) {
+    for (size_t node = 0; node < scene.nodes.size(); ++node) {
+      if (scene.nodes[node].camera == scene::none) continue;
+      const scene::Camera& camera = scene.cameras[scene.nodes[node].camera];
+      hash.add_value(rest.node_world[node]);
+      for (const float number :
+           {camera.perspective ? 1.0f : 0.0f, camera.yfov, camera.aspect, camera.xmag, camera.ymag})
+        hash.add_value(number);
+    }
+  }
   // Grids, and the names that notes mention.
   for (const scene::Placement& placement : assembly.placements) {
     const scene::Mesh& mesh = scene.meshes[placement.mesh];

@@ -21,6 +21,7 @@
 #include "lodestone/geometry_image/chart_stretch.h"
 #include "lodestone/geometry_image/kept_map.h"
 #include "lodestone/geometry_image/profile_maker.h"
+#include "lodestone/geometry_image/screen_need.h"
 #include "lodestone/geometry_image/shape_metrics.h"
 #include "lodestone/geometry_image/texel_values.h"
 
@@ -99,6 +100,7 @@ class ChartMaker {
         on_stage_(on_stage),
         positions_(finite_positions(scene, assembly)) {
     if (settings.all_shapes) metrics_.emplace(scene, assembly);
+    if (settings.signal == Signal::screen) views_ = screen_views(scene);
   }
 
   MappedCharts run(std::vector<uint32_t> triangles) {
@@ -198,6 +200,11 @@ class ChartMaker {
     const ArcErrors arc_errors(complex);
     Need need = need_of(settings_.signal);
     if (metrics_) need.chart_weights = shape_weights(complex);
+    if (!views_.empty()) {
+      const std::vector<double> weights = screen_weights(complex, views_);
+      need.chart_weights.resize(weights.size(), 1.0);
+      for (size_t c = 0; c < weights.size(); ++c) need.chart_weights[c] *= weights[c];
+    }
     ChartFeedback feedback(complex, profiles, arc_errors, tolerated * mesh::diagonal({positions_, corners_}),
                            std::move(need));
     double least = std::numeric_limits<double>::infinity();
@@ -344,6 +351,7 @@ class ChartMaker {
   const OnStage& on_stage_;
   const std::vector<glm::vec3> positions_;
   std::optional<ShapeMetrics> metrics_;
+  std::vector<ScreenView> views_;
   std::vector<uint32_t> triangles_, left_out_;
   std::vector<glm::uvec3> corners_;         // of the triangles
   std::optional<mesh::TriangleTree> tree_;  // and how far they are

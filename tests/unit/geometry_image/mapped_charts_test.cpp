@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <set>
 
 #include "brute_force.h"
+#include "expect_error.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/atlas_check.h"
 #include "lodestone/geometry_image/atlas_file.h"
@@ -363,6 +366,42 @@ TEST(MappedCharts, TakeASurfaceThatIsOnePointAtRest) {
     EXPECT_EQ(made.area(), 0);
     EXPECT_GT(made.atlas.report.texels, 0u);
   }
+}
+
+// A road from under the camera to far away.
+scene::Scene road_with_camera() {
+  scene::Scene scene = test::scene_of({mesh_from(shapes::plane(200, 8))});
+  scene.cameras.emplace_back();
+  scene.nodes.emplace_back();
+  scene.nodes.back().camera = 0;
+  scene.nodes.back().translation = {-1, 4, 1};
+  scene.nodes.back().rotation = glm::quat(glm::vec3(glm::half_pi<float>(), -glm::half_pi<float>(), 0));
+  return scene;
+}
+
+TEST(MappedCharts, HaveMoreTexelsNearTheCamerasOfTheScene) {
+  const auto texels_before = [](Signal signal, float x) {
+    const Made made(road_with_camera(), settings_of(4000, signal));
+    EXPECT_LE(made.points.size(), 4000u);
+    return std::count_if(made.points.begin(), made.points.end(), [x](const glm::vec3& p) { return p.x < x; });
+  };
+  EXPECT_GT(texels_before(Signal::screen, 20), 2 * texels_before(Signal::area, 20));
+}
+
+TEST(MappedCharts, OfAnotherCameraHaveAnotherHash) {
+  scene::Scene scene = road_with_camera();
+  const auto hash = [&](Signal signal) {
+    return atlas_hash(scene, scene::assemble(scene), settings_of(4000, signal));
+  };
+  const std::string screen = hash(Signal::screen), area = hash(Signal::area);
+  scene.nodes.back().translation.x += 1;
+  EXPECT_NE(hash(Signal::screen), screen);
+  EXPECT_EQ(hash(Signal::area), area) << "cameras do not count there";
+}
+
+TEST(MappedCharts, ForTheScreenNeedACamera) {
+  test::expect_error([] { Made(shapes::plane(4, 4), settings_of(100, Signal::screen)); }, ExitCode::usage,
+                     "--signal screen", "needs a camera");
 }
 
 }  // namespace
