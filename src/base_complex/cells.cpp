@@ -244,6 +244,8 @@ double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options) {
 
 Cells grow_cells(HalfEdgeMesh& mesh, const CellOptions& options) {
   Cells cells = Grower(mesh, options).run();
+  constexpr uint32_t some = 1000;
+  cells.most_faces = 2 * mesh.faces() + some;
   make_discs(mesh, cells);
   return cells;
 }

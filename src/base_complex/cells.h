@@ -30,6 +30,9 @@ double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options);
 struct Cells {
   std::vector<uint32_t> of_face;
   uint32_t count = 0;
+  // Splits may cut through faces while the mesh has fewer than this; then they part cells between faces, so
+  // that they come to an end whatever the surface is.
+  uint32_t most_faces = 0;
 };
 Cells grow_cells(HalfEdgeMesh& mesh, const CellOptions& options);
 

@@ -180,9 +180,9 @@ class DiscCheck {
 
 void split(HalfEdgeMesh& mesh, Cells& cells, std::vector<std::vector<uint32_t>>& faces, uint32_t cell,
            const Cut& cut) {
-  // A few faces are parted between them, or there would be new ones without end.
+  // A few faces are parted between them.
   constexpr size_t worth_cutting = 8;
-  if (cut.straight && faces[cell].size() >= worth_cutting &&
+  if (cut.straight && faces[cell].size() >= worth_cutting && mesh.faces() < cells.most_faces &&
       cut_cell(mesh, cells, faces, cell, cut.first, cut.second))
     return;
   split_cell(mesh, cells, faces[cell], cut.first, cut.second);
