@@ -145,8 +145,9 @@ class ChartMaker {
     stage("cells");
     Cells cells = grow_cells(mesh, options);
     if (leave_out_soup(mesh, cells)) return false;
+    RoundsLeft left;
     for (int round = 0;; ++round) {
-      std::vector<uint32_t> failed = try_cells(mesh, cells, result, round);
+      std::vector<uint32_t> failed = try_cells(mesh, cells, result, left);
       if (failed.empty()) return true;
       std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
       for (const uint32_t cell : failed) {
@@ -169,12 +170,15 @@ class ChartMaker {
     return HalfEdgeMesh(std::vector<glm::dvec3>(positions_.begin(), positions_.end()), corners);
   }
 
+  // How often cells may still be split that have too many arcs, and those whose maps are uneven. Many of the
+  // latter are so however small they are.
+  struct RoundsLeft {
+    int crowded = 6, uneven = 4;
+  };
+
   // Charts of the cells; returns the cells that could not be mapped.
   std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, MappedCharts& result,
-                                  int round) const {
-    // So often cells are split that are crowded, and then those whose maps are uneven, too.
-    constexpr int crowded_rounds = 6, uneven_rounds = 14;
-    const bool may_split = round < uneven_rounds;
+                                  RoundsLeft& left) const {
     stage("complex");
     const BaseComplex complex = build_complex(mesh, cells);
     std::vector<uint32_t> crowded;
@@ -182,14 +186,18 @@ class ChartMaker {
       const Cell& cell = complex.cells[c];
       if (cell.boundary.size() > most_arcs && cell.faces.size() > most_arcs) crowded.push_back(c);
     }
-    if (!crowded.empty() && round < crowded_rounds) return crowded;
+    if (!crowded.empty() && left.crowded > 0) {
+      --left.crowded;
+      return crowded;
+    }
     std::vector<std::optional<ChartProfile>> found(complex.cells.size());
     stage("profiles");
     std::vector<uint32_t> failed = profile(complex, found);
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    improve(complex, profiles, may_split, result, failed);
+    improve(complex, profiles, left.uneven > 0, result, failed);
+    if (!failed.empty()) --left.uneven;
     return failed;
   }
 
