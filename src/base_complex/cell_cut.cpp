@@ -42,17 +42,20 @@ class CellCutter {
 
   void split_edges() {
     for (size_t i = 0; i < faces_[cell_].size(); ++i) {
-      for (uint32_t k = 0; k < 3; ++k) {
+      for (uint32_t k = 0; k < 3;) {
         const uint32_t h = 3 * faces_[cell_][i] + k;
         const double a = side_.at(mesh_.from(h)), b = side_.at(mesh_.to(h));
-        if (!(a * b < 0)) continue;
+        if (!(a * b < 0)) {
+          ++k;
+          continue;
+        }
         std::vector<HalfEdgeMesh::Halves> halves;
         side_.emplace(mesh_.split_edge(h, a / (a - b), &halves), 0.0);
         for (const HalfEdgeMesh::Halves& half : halves) {
           cells_.of_face.push_back(cells_.of_face[half.face]);
           faces_[cells_.of_face[half.face]].push_back(half.taken);
         }
-        k = static_cast<uint32_t>(-1);  // the face is another one now
+        k = 0;  // the face is another one now
       }
     }
   }

@@ -25,8 +25,7 @@ double cell_radius(double area, const CellOptions& options);
 double cell_radius(const HalfEdgeMesh& mesh, const CellOptions& options);
 
 // The cell of each face, 0 .. count - 1, every one used. Each cell is connected, has no barrier inside, a
-// boundary of one loop that comes to no point twice, and Euler characteristic 1. Edges of the mesh may be
-// split.
+// boundary of one loop that comes to no point twice, and Euler characteristic 1.
 struct Cells {
   std::vector<uint32_t> of_face;
   uint32_t count = 0;
@@ -34,6 +33,7 @@ struct Cells {
   // that they come to an end whatever the surface is.
   uint32_t most_faces = 0;
 };
+// Edges of the mesh are split where straight borders need it.
 Cells grow_cells(HalfEdgeMesh& mesh, const CellOptions& options);
 
 // Splits one cell in two between two of its faces: each goes to the one it is nearer to. The new cell gets
@@ -45,8 +45,7 @@ void split_cell(const HalfEdgeMesh& mesh, Cells& cells, const std::vector<uint32
 // cell, and is kept true. False where it has but one.
 bool halve_cell(HalfEdgeMesh& mesh, Cells& cells, std::vector<std::vector<uint32_t>>& faces, uint32_t cell);
 
-// Splits cells until each is a disc as said above. Edges of the mesh are split where straight borders need
-// it.
+// Splits cells until each is a disc as said above, and edges of the mesh as above.
 void make_discs(HalfEdgeMesh& mesh, Cells& cells);
 
 // The half-edge behind another one on the boundary of its cell: round its end, through the cell's faces.

@@ -76,7 +76,8 @@ class CellDistance {
   const std::vector<uint32_t>& faces_;
   std::unordered_map<uint32_t, uint32_t> local_;
   std::vector<double> cost_;
-  std::vector<glm::dvec3> entered_at_;  // the middle of an edge: see cells.cpp
+  // The middle of the edge that a face was reached over: between centroids of thin faces paths would zigzag.
+  std::vector<glm::dvec3> entered_at_;
 };
 
 // Two faces of a cell between which it must be split; equal where it is a disc.

@@ -73,7 +73,7 @@ double ChartProfile::error_of_quad(uint32_t x, uint32_t y, uint32_t step_x, uint
 
 double ChartProfile::error(uint32_t width, uint32_t height) const {
   const auto power = [](uint32_t side) { return static_cast<uint32_t>(std::bit_width(side)) - 1; };
-  return points_.empty() ? 0.0 : surface_error({power(width), power(height)});
+  return surface_error({power(width), power(height)});
 }
 
 double ChartProfile::surface_error(ChartPowers powers) const {

@@ -25,8 +25,6 @@ class ChartProfile {
  public:
   // `points` are the (2^width + 1) x (2^height + 1) samples of a lattice, row by row.
   ChartProfile(ChartPowers powers, std::vector<glm::dvec3> points, const std::vector<FirmArc>& firm);
-  // Of a chart of which no more is known than how wide and high it is; its error is 0.
-  ChartProfile(double width, double height) : width_(width), height_(height) {}
 
   // How far, at most, samples of the fine lattice are from the quads of a coarser one (sides in quads, powers
   // of 2), measured across the surface; for sliding along it is no error, unless it leads over a firm arc. Of

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// From the map of a cell to what an atlas keeps of it (chart_maps.h), for texels that move later.
 #pragma once
 
 #include <cstdint>

@@ -196,15 +196,15 @@ class ChartMaker {
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    improve(complex, profiles, left.uneven > 0, result, failed);
+    failed = improve(complex, profiles, left.uneven > 0, result);
     if (!failed.empty()) --left.uneven;
     return failed;
   }
 
   // The best of some attempts, each of which gives more texels to what was too far from the surface before;
   // or the cells that could not be mapped.
-  void improve(const BaseComplex& complex, const std::vector<ChartProfile>& profiles, bool may_split,
-               MappedCharts& result, std::vector<uint32_t>& failed) const {
+  std::vector<uint32_t> improve(const BaseComplex& complex, const std::vector<ChartProfile>& profiles,
+                                bool may_split, MappedCharts& result) const {
     const ArcErrors arc_errors(complex);
     Need need = need_of(settings_.signal);
     if (metrics_) need.chart_weights = shape_weights(complex);
@@ -222,8 +222,8 @@ class ChartMaker {
           choose_sizes(complex, profiles, arc_errors, feedback.need(), budget_);
       stage("maps");
       MappedCharts made;
-      failed = sample(complex, sizes, made, may_split);
-      if (!failed.empty()) return;
+      std::vector<uint32_t> failed = sample(complex, sizes, made, may_split);
+      if (!failed.empty()) return failed;
       stage("errors");
       const std::vector<double> errors = chart_errors(complex, made);
       const double bad = feedback.badness(errors);
@@ -232,8 +232,9 @@ class ChartMaker {
         best = attempt;
         result = std::move(made);
       }
-      if (!feedback.learn(sizes, errors)) return;
+      if (!feedback.learn(sizes, errors)) break;
     }
+    return {};
   }
 
   std::vector<double> chart_errors(const BaseComplex& complex, const MappedCharts& made) const {

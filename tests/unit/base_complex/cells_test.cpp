@@ -216,7 +216,7 @@ TEST(Cells, AreCutStraightThroughFacesWhileThereMayBeMore) {
   EXPECT_EQ(faces, faces_by_cell(cells));
   ASSERT_EQ(cells.count, 2u);
   expect_discs(mesh, cells);
-  // The border is one straight line: its points have one distance from the middle of the two farthest faces.
+  // The border is a straight line, but for points that were near enough to it to be taken instead.
   std::vector<glm::dvec3> border;
   for (uint32_t h = 0; h < 3 * mesh.faces(); ++h)
     if (mesh.twin(h) != none && cells.of_face[face_of(h)] == 0 && cells.of_face[face_of(mesh.twin(h))] == 1)

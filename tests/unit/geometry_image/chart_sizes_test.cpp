@@ -28,7 +28,11 @@ std::vector<ChartProfile> profiles_of(const BaseComplex& complex) {
   std::vector<ChartProfile> profiles;
   for (const Cell& cell : complex.cells) {
     const glm::dvec2 extent = extent_of(complex, cell);
-    profiles.emplace_back(extent.x, extent.y);
+    // One flat quad: no error at any size.
+    profiles.emplace_back(
+        ChartPowers{},
+        std::vector<glm::dvec3>{{0, 0, 0}, {extent.x, 0, 0}, {0, extent.y, 0}, {extent.x, extent.y, 0}},
+        std::vector<FirmArc>{});
   }
   return profiles;
 }
