@@ -8,11 +8,11 @@
 namespace lodestone::geometry_image {
 namespace {
 
-constexpr uint64_t triangles_a_task = 1u << 10;
+constexpr uint64_t triangles_a_task = 1u << 8;
 
-std::vector<glm::uvec3> triangles_of(const ChartPoints& image) {
+std::vector<glm::uvec3> triangles_of(std::span<const layout::ChartRecord> charts) {
   std::vector<glm::uvec3> triangles;
-  for (const layout::ChartRecord& chart : image.charts) {
+  for (const layout::ChartRecord& chart : charts) {
     for (uint32_t y = 0; y + 1 < chart.height; ++y) {
       for (uint32_t x = 0; x + 1 < chart.width; ++x) {
         const uint32_t a = chart.first_texel + y * chart.width + x, c = a + chart.width;
@@ -24,16 +24,61 @@ std::vector<glm::uvec3> triangles_of(const ChartPoints& image) {
   return triangles;
 }
 
+void sort_out(std::vector<uint32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 }  // namespace
 
-std::vector<double> errors_from_image(const ChartPoints& image, const mesh::TriangleTree& input) {
-  std::vector<double> errors(image.charts.size(), 0);
-  parallel_for(errors.size(), 1, [&](uint64_t begin, uint64_t end) {
+ChartErrors::ChartErrors(const base_complex::BaseComplex& complex, const mesh::Surface& input,
+                         const mesh::TriangleTree& input_tree)
+    : input_(input),
+      input_tree_(input_tree),
+      neighbours_(complex.cells.size()),
+      triangles_(complex.cells.size()),
+      chart_of_triangle_(input.triangles.size(), mesh::none),
+      of_image_(complex.cells.size(), 0),
+      of_triangle_(input.triangles.size(), 0),
+      errors_(complex.cells.size(), 0) {
+  for (uint32_t face = 0; face < complex.mesh.faces(); ++face) {
+    const uint32_t triangle = complex.mesh.triangle(face), chart = complex.cell_of_face[face];
+    chart_of_triangle_[triangle] = chart;
+    triangles_[chart].push_back(triangle);
+  }
+  for (std::vector<uint32_t>& list : triangles_) sort_out(list);
+  std::vector<std::vector<uint32_t>> beside(complex.arcs.size());
+  for (uint32_t c = 0; c < complex.cells.size(); ++c)
+    for (const base_complex::Passage& passage : complex.cells[c].boundary) beside[passage.arc].push_back(c);
+  for (uint32_t c = 0; c < complex.cells.size(); ++c) {
+    neighbours_[c].push_back(c);
+    for (const base_complex::Passage& passage : complex.cells[c].boundary)
+      neighbours_[c].insert(neighbours_[c].end(), beside[passage.arc].begin(), beside[passage.arc].end());
+    sort_out(neighbours_[c]);
+  }
+}
+
+const std::vector<double>& ChartErrors::measure(const ChartPoints& image, const std::vector<bool>& changed) {
+  measure_image(image, changed);
+  measure_input(image, changed);
+  errors_ = of_image_;
+  for (size_t i = 0; i < of_triangle_.size(); ++i) {
+    if (chart_of_triangle_[i] == mesh::none) continue;
+    double& error = errors_[chart_of_triangle_[i]];
+    error = std::max(error, of_triangle_[i]);
+  }
+  return errors_;
+}
+
+void ChartErrors::measure_image(const ChartPoints& image, const std::vector<bool>& changed) {
+  parallel_for(of_image_.size(), 1, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
+      if (!changed[i]) continue;
+      of_image_[i] = 0;
       const auto check = [&](const glm::dvec3& point) {
-        errors[i] = std::max(errors[i], input.nearest(point).distance);
+        of_image_[i] = std::max(of_image_[i], input_tree_.nearest(point).distance);
       };
-      for (const glm::uvec3& t : triangles_of({image.charts.subspan(i, 1), image.points})) {
+      for (const glm::uvec3& t : triangles_of(image.charts.subspan(i, 1))) {
         const glm::dvec3 a = image.points[t.x], b = image.points[t.y], c = image.points[t.z];
         check(0.5 * (a + b));
         check(0.5 * (a + c));
@@ -42,29 +87,30 @@ std::vector<double> errors_from_image(const ChartPoints& image, const mesh::Tria
       }
     }
   });
-  return errors;
 }
 
-std::vector<double> errors_from_input(const mesh::Surface& input, std::span<const uint32_t> chart_of_triangle,
-                                      const ChartPoints& image) {
-  const std::vector<glm::uvec3> triangles = triangles_of(image);
-  const mesh::TriangleTree tree({image.points, triangles});
-  std::vector<double> of_triangle(input.triangles.size(), 0);
-  parallel_for(of_triangle.size(), triangles_a_task, [&](uint64_t begin, uint64_t end) {
+void ChartErrors::measure_input(const ChartPoints& image, const std::vector<bool>& changed) {
+  const std::vector<glm::uvec3> all = triangles_of(image.charts);
+  const mesh::TriangleTree tree({image.points, all});
+  std::vector<uint32_t> near;
+  for (size_t c = 0; c < changed.size(); ++c) {
+    if (!changed[c]) continue;
+    near.insert(near.end(), neighbours_[c].begin(), neighbours_[c].end());
+  }
+  sort_out(near);
+  std::vector<uint32_t> triangles;
+  for (const uint32_t c : near) triangles.insert(triangles.end(), triangles_[c].begin(), triangles_[c].end());
+  sort_out(triangles);
+  parallel_for(triangles.size(), triangles_a_task, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
-      const glm::uvec3& t = input.triangles[i];
-      const glm::dvec3 a = input.positions[t.x], b = input.positions[t.y], c = input.positions[t.z];
+      const glm::uvec3& t = input_.triangles[triangles[i]];
+      const glm::dvec3 a = input_.positions[t.x], b = input_.positions[t.y], c = input_.positions[t.z];
+      double& error = of_triangle_[triangles[i]];
+      error = 0;
       for (const glm::dvec3& point : {a, b, c, (a + b + c) / 3.0})
-        of_triangle[i] = std::max(of_triangle[i], tree.nearest(point).distance);
+        error = std::max(error, tree.nearest(point).distance);
     }
   });
-  std::vector<double> errors(image.charts.size(), 0);
-  for (size_t i = 0; i < of_triangle.size(); ++i) {
-    if (chart_of_triangle[i] == mesh::none) continue;
-    double& error = errors[chart_of_triangle[i]];
-    error = std::max(error, of_triangle[i]);
-  }
-  return errors;
 }
 
 }  // namespace lodestone::geometry_image

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far each mapped chart is from the surface that it resamples.
+// How far each mapped chart is from the surface that it resamples, for one set of charts after another: what
+// cannot have changed since the last is not measured again.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "lodestone/base_complex/base_complex.h"
 #include "lodestone/layout/atlas.h"
 #include "lodestone/mesh/surface.h"
 #include "lodestone/mesh/triangle_tree.h"
@@ -19,13 +21,27 @@ struct ChartPoints {
   std::span<const glm::vec3> points;
 };
 
-// Of each chart the farthest that the middle of a quad's edge, diagonal or triangle is from the input. The
-// points themselves lie on it.
-std::vector<double> errors_from_image(const ChartPoints& image, const mesh::TriangleTree& input);
+class ChartErrors {
+ public:
+  // The complex is one of the input's triangles, in their order. All must outlive it.
+  ChartErrors(const base_complex::BaseComplex& complex, const mesh::Surface& input,
+              const mesh::TriangleTree& input_tree);
 
-// Of each chart the farthest that a corner or the middle of an input triangle is from all charts;
-// `chart_of_triangle` says whose error that is (none: nobody's).
-std::vector<double> errors_from_input(const mesh::Surface& input, std::span<const uint32_t> chart_of_triangle,
-                                      const ChartPoints& image);
+  // Of each chart the farthest that the middle of a quad's edge, diagonal or triangle is from the input, or a
+  // corner or the middle of one of its input triangles from all charts. `changed` says which charts are not
+  // those of the last call; it counts for a triangle if that is near a chart that changed.
+  const std::vector<double>& measure(const ChartPoints& image, const std::vector<bool>& changed);
+
+ private:
+  void measure_image(const ChartPoints& image, const std::vector<bool>& changed);
+  void measure_input(const ChartPoints& image, const std::vector<bool>& changed);
+
+  const mesh::Surface input_;
+  const mesh::TriangleTree& input_tree_;
+  std::vector<std::vector<uint32_t>> neighbours_;  // of each chart: those beside it and itself
+  std::vector<std::vector<uint32_t>> triangles_;   // of each chart: those of which it has a piece
+  std::vector<uint32_t> chart_of_triangle_;        // the one that answers for it
+  std::vector<double> of_image_, of_triangle_, errors_;
+};
 
 }  // namespace lodestone::geometry_image

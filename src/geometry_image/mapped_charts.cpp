@@ -10,17 +10,15 @@
 #include "lodestone/base/disjoint_sets.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/base_complex/base_complex.h"
-#include "lodestone/base_complex/cell_map.h"
 #include "lodestone/geometry_image/arc_errors.h"
 #include "lodestone/geometry_image/chart_errors.h"
 #include "lodestone/geometry_image/chart_feedback.h"
 #include "lodestone/geometry_image/chart_profile.h"
-#include "lodestone/geometry_image/chart_sampler.h"
 #include "lodestone/geometry_image/chart_seams.h"
 #include "lodestone/geometry_image/chart_sizes.h"
 #include "lodestone/geometry_image/chart_stretch.h"
-#include "lodestone/geometry_image/kept_map.h"
 #include "lodestone/geometry_image/profile_maker.h"
+#include "lodestone/geometry_image/sampled_charts.h"
 #include "lodestone/geometry_image/screen_need.h"
 #include "lodestone/geometry_image/shape_metrics.h"
 #include "lodestone/geometry_image/texel_values.h"
@@ -30,7 +28,6 @@ namespace {
 
 using base_complex::BaseComplex;
 using base_complex::Cell;
-using base_complex::CellMap;
 using base_complex::CellOptions;
 using base_complex::Cells;
 using base_complex::HalfEdgeMesh;
@@ -68,25 +65,6 @@ std::vector<glm::vec3> finite_positions(const scene::Scene& scene, const scene::
     for (glm::length_t axis = 0; axis < 3; ++axis)
       if (!std::isfinite(p[axis])) p[axis] = 0;
   return positions;
-}
-
-// Calls body(cell) for all cells side by side; returns those for which it threw NotMappable.
-template <class Body>
-std::vector<uint32_t> for_each_cell(size_t cells, Body body) {
-  std::vector<uint8_t> failed(cells, 0);
-  parallel_for(cells, 1, [&](uint64_t begin, uint64_t end) {
-    for (auto c = static_cast<uint32_t>(begin); c < end; ++c) {
-      try {
-        body(c);
-      } catch (const NotMappable&) {
-        failed[c] = 1;
-      }
-    }
-  });
-  std::vector<uint32_t> list;
-  for (uint32_t c = 0; c < cells; ++c)
-    if (failed[c] != 0) list.push_back(c);
-  return list;
 }
 
 class ChartMaker {
@@ -190,118 +168,101 @@ class ChartMaker {
       --left.crowded;
       return crowded;
     }
+    const ChartSource source = {
+        complex, assembly_, welded_, triangles_, metrics_ ? &*metrics_ : nullptr, settings_.keep_maps};
     std::vector<std::optional<ChartProfile>> found(complex.cells.size());
     stage("profiles");
-    std::vector<uint32_t> failed = profile(complex, found);
+    std::vector<uint32_t> failed = profile(source, found);
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    failed = improve(complex, profiles, left.uneven > 0, result);
+    failed = improve(source, profiles, left.uneven > 0, result);
     if (!failed.empty()) --left.uneven;
     return failed;
   }
 
   // The best of some attempts, each of which gives more texels to what was too far from the surface before;
   // or the cells that could not be mapped.
-  std::vector<uint32_t> improve(const BaseComplex& complex, const std::vector<ChartProfile>& profiles,
+  std::vector<uint32_t> improve(const ChartSource& source, const std::vector<ChartProfile>& profiles,
                                 bool may_split, MappedCharts& result) const {
+    const BaseComplex& complex = source.complex;
+    const mesh::Surface surface = {positions_, corners_};
     const ArcErrors arc_errors(complex);
-    Need need = need_of(settings_.signal);
-    if (metrics_) need.chart_weights = shape_weights(complex);
-    if (!views_.empty()) {
-      const std::vector<double> weights = screen_weights(complex, views_);
-      need.chart_weights.resize(weights.size(), 1.0);
-      for (size_t c = 0; c < weights.size(); ++c) need.chart_weights[c] *= weights[c];
-    }
-    ChartFeedback feedback(complex, profiles, arc_errors, tolerated * mesh::diagonal({positions_, corners_}),
-                           std::move(need));
+    ChartFeedback feedback(complex, profiles, arc_errors, tolerated * mesh::diagonal(surface), need(source));
+    SampledCharts charts(source);
+    ChartErrors chart_errors(complex, surface, *tree_);
     double least = std::numeric_limits<double>::infinity();
     for (uint32_t attempt = 0, best = 0; attempt < std::min(best + patience, most_attempts); ++attempt) {
       stage("sizes");
       const std::vector<ChartSize> sizes =
           choose_sizes(complex, profiles, arc_errors, feedback.need(), budget_);
       stage("maps");
-      MappedCharts made;
-      std::vector<uint32_t> failed = sample(complex, sizes, made, may_split);
+      std::vector<uint32_t> failed = charts.resize(sizes);
+      if (failed.empty() && may_split) failed = uneven(complex, charts);
       if (!failed.empty()) return failed;
       stage("errors");
-      const std::vector<double> errors = chart_errors(complex, made);
+      const std::vector<glm::vec3> points = at_texels(assembly_, charts.texels(), positions_);
+      const std::vector<double>& errors = chart_errors.measure({charts.records(), points}, charts.changed());
       const double bad = feedback.badness(errors);
       if (attempt == 0 || bad < least) {
         least = bad;
         best = attempt;
-        result = std::move(made);
+        result = charts.result();
       }
       if (!feedback.learn(sizes, errors)) break;
     }
     return {};
   }
 
-  std::vector<double> chart_errors(const BaseComplex& complex, const MappedCharts& made) const {
-    const std::vector<glm::vec3> points = at_texels(assembly_, made.texels, positions_);
-    std::vector<uint32_t> chart_of_triangle(triangles_.size(), mesh::none);
-    for (uint32_t f = 0; f < complex.mesh.faces(); ++f)
-      chart_of_triangle[complex.mesh.triangle(f)] = complex.cell_of_face[f];
-    const ChartPoints image = {made.charts, points};
-    std::vector<double> errors = errors_from_image(image, *tree_);
-    const std::vector<double> others = errors_from_input({positions_, corners_}, chart_of_triangle, image);
-    for (size_t c = 0; c < errors.size(); ++c) errors[c] = std::max(errors[c], others[c]);
-    return errors;
+  static std::vector<uint32_t> uneven(const BaseComplex& complex, const SampledCharts& charts) {
+    std::vector<uint32_t> list;
+    for (uint32_t c = 0; c < complex.cells.size(); ++c) {
+      const bool large = complex.cells[c].faces.size() > worth_splitting;
+      if (large && charts.stretch(c).unevenness > too_uneven) list.push_back(c);
+    }
+    return list;
   }
 
-  std::vector<TriangleShape> shapes_of(const BaseComplex& complex, uint32_t cell) const {
-    if (!metrics_) return face_shapes(complex, cell);
-    std::vector<TriangleShape> shapes;
-    for (const uint32_t face : complex.cells[cell].faces)
-      shapes.push_back(metrics_->of_face(complex.mesh, triangles_, face));
-    return shapes;
+  Need need(const ChartSource& source) const {
+    Need need = need_of(settings_.signal);
+    if (metrics_) need.chart_weights = shape_weights(source);
+    if (!views_.empty()) {
+      const std::vector<double> weights = screen_weights(source.complex, views_);
+      need.chart_weights.resize(weights.size(), 1.0);
+      for (size_t c = 0; c < weights.size(); ++c) need.chart_weights[c] *= weights[c];
+    }
+    return need;
   }
 
   // How much longer each cell is in the shapes that stretch it most.
-  std::vector<double> shape_weights(const BaseComplex& complex) const {
-    std::vector<double> weights(complex.cells.size(), 1.0);
+  static std::vector<double> shape_weights(const ChartSource& source) {
+    std::vector<double> weights(source.complex.cells.size(), 1.0);
     for (uint32_t c = 0; c < weights.size(); ++c) {
       double stretched = 0;
-      for (const TriangleShape& shape : shapes_of(complex, c)) stretched += shape.area;
-      if (complex.cells[c].area > 0) weights[c] = std::sqrt(stretched / complex.cells[c].area);
+      for (const TriangleShape& shape : source.shapes(c)) stretched += shape.area;
+      const double area = source.complex.cells[c].area;
+      if (area > 0) weights[c] = std::sqrt(stretched / area);
     }
     return weights;
   }
 
-  std::vector<uint32_t> profile(const BaseComplex& complex,
+  std::vector<uint32_t> profile(const ChartSource& source,
                                 std::vector<std::optional<ChartProfile>>& found) const {
-    const ProfileMaker maker(complex, budget_);
-    return for_each_cell(found.size(), [&](uint32_t c) { found[c] = maker.make(c, shapes_of(complex, c)); });
-  }
-
-  std::vector<uint32_t> sample(const BaseComplex& complex, const std::vector<ChartSize>& sizes,
-                               MappedCharts& result, bool may_split) const {
-    result = {};
-    uint32_t texels = 0;
-    for (const ChartSize& size : sizes) {
-      result.charts.push_back({texels, size.width + 1, size.height + 1, layout::chart_mapped, 0, 0, 0, 0});
-      texels += static_cast<uint32_t>(size.texels());
-    }
-    result.texels.resize(texels);
-    const ChartSampler sampler(complex, assembly_, welded_, triangles_, sizes);
-    std::vector<ChartStretch> stretch(sizes.size());
-    std::vector<ChartMaps> maps(settings_.keep_maps ? sizes.size() : 0);
-    const std::vector<uint32_t> failed = for_each_cell(sizes.size(), [&](uint32_t c) {
-      const CellMap map = map_cell(complex, c, sampler.rectangle(c), shapes_of(complex, c), {});
-      stretch[c] = chart_stretch(map, face_shapes(complex, c), uint64_t(sizes[c].width) * sizes[c].height);
-      const bool large = complex.cells[c].faces.size() > worth_splitting;
-      if (may_split && large && stretch[c].unevenness > too_uneven) throw NotMappable{};
-      glm::uvec4* texel = &result.texels[result.charts[c].first_texel];
-      for (const SurfaceSample& at : sampler.sample(c, map)) *texel++ = at.texel(c);
-      if (settings_.keep_maps)
-        maps[c] = keep_map(complex, c, map, triangles_, sizes[c].width + 1, sizes[c].height + 1);
+    const ProfileMaker maker(source.complex, budget_);
+    std::vector<uint8_t> failed(found.size(), 0);
+    parallel_for(found.size(), 1, [&](uint64_t begin, uint64_t end) {
+      for (auto c = static_cast<uint32_t>(begin); c < end; ++c) {
+        try {
+          found[c] = maker.make(c, source.shapes(c));
+        } catch (const NotMappable&) {
+          failed[c] = 1;
+        }
+      }
     });
-    for (const ChartMaps& map : maps) result.maps.append(map);
-    for (uint32_t c = 0; c < sizes.size(); ++c) result.repeated_texels += sampler.repeated(c);
-    const StretchSummary summary = sum_up(stretch);
-    result.mean_stretch = summary.mean;
-    result.high_stretch = summary.high;
-    return failed;
+    std::vector<uint32_t> list;
+    for (uint32_t c = 0; c < failed.size(); ++c)
+      if (failed[c] != 0) list.push_back(c);
+    return list;
   }
 
   // The points of the mesh in groups that edges connect: of each the name of its group.

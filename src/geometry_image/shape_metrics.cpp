@@ -43,6 +43,15 @@ ShapeMetrics::ShapeMetrics(const scene::Scene& scene, const scene::Assembly& ass
   }
 }
 
+std::vector<TriangleShape> ShapeMetrics::of_cell(const base_complex::BaseComplex& complex,
+                                                 const std::vector<uint32_t>& triangles,
+                                                 uint32_t cell) const {
+  std::vector<TriangleShape> shapes;
+  for (const uint32_t face : complex.cells[cell].faces)
+    shapes.push_back(of_face(complex.mesh, triangles, face));
+  return shapes;
+}
+
 TriangleShape ShapeMetrics::of_face(const base_complex::HalfEdgeMesh& mesh,
                                     const std::vector<uint32_t>& triangles, uint32_t face) const {
   const uint32_t triangle = triangles[mesh.triangle(face)];

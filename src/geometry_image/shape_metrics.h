@@ -18,11 +18,15 @@ class ShapeMetrics {
  public:
   ShapeMetrics(const scene::Scene& scene, const scene::Assembly& assembly);
 
-  // The shape of a face of the mesh whose face f is a piece of triangle `triangles[mesh.triangle(f)]`.
+  // The shapes of a cell's faces, in order; face f of its mesh is a piece of `triangles[mesh.triangle(f)]`.
+  std::vector<base_complex::TriangleShape> of_cell(const base_complex::BaseComplex& complex,
+                                                   const std::vector<uint32_t>& triangles,
+                                                   uint32_t cell) const;
+
+ private:
   base_complex::TriangleShape of_face(const base_complex::HalfEdgeMesh& mesh,
                                       const std::vector<uint32_t>& triangles, uint32_t face) const;
 
- private:
   std::vector<base_complex::TriangleShape> rest_, largest_;
 };
 
