@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a chart would look like at each resolution: its surface on a fine lattice, and how far coarser
-// lattices stray from that.
+// What a chart would look like at each resolution: how far coarser lattices stray from a fine one.
 #pragma once
 
 #include <algorithm>
@@ -24,12 +23,12 @@ struct FirmArc {
 class ChartProfile {
  public:
   // `points` are the (2^width + 1) x (2^height + 1) samples of a lattice, row by row.
-  ChartProfile(ChartPowers powers, std::vector<glm::dvec3> points, const std::vector<FirmArc>& firm);
+  ChartProfile(ChartPowers powers, const std::vector<glm::dvec3>& points, const std::vector<FirmArc>& firm);
 
-  // How far, at most, samples of the fine lattice are from the quads of a coarser one (sides in quads, powers
-  // of 2), measured across the surface; for sliding along it is no error, unless it leads over a firm arc. Of
-  // a finer lattice than the profile's it is what the error would shrink to if it fell with the square of the
-  // spacing.
+  // How far, at most, samples of the fine lattice are from the quads of a coarser one (sides in quads),
+  // measured across the surface; for sliding along it is no error, unless it leads over a firm arc. Of sides
+  // between two powers of 2 it is something between theirs. Of a finer lattice than the profile's it is what
+  // the error would shrink to if it fell with the square of the spacing.
   double error(uint32_t width, uint32_t height) const;
 
   // How wide and how high a quad is on average where there are so many, and the larger of the two.
@@ -40,18 +39,10 @@ class ChartProfile {
   }
 
  private:
-  const glm::dvec3& at(uint32_t x, uint32_t y) const {
-    return points_[size_t(y) * ((1u << powers_.width) + 1) + x];
-  }
-  glm::dvec3 normal_at(uint32_t x, uint32_t y) const;
-  void find_room(const std::vector<FirmArc>& firm);
-  double surface_error(ChartPowers powers) const;
-  double error_of_quad(uint32_t x, uint32_t y, uint32_t step_x, uint32_t step_y) const;
+  double error_of(ChartPowers powers) const;
 
   ChartPowers powers_;
-  std::vector<glm::dvec3> points_, normals_;
-  std::vector<double> room_;  // of each sample, how far it is from the nearest firm arc
-
+  std::vector<double> errors_;     // of all lattices up to the fine one: the height's power counts up first
   double width_ = 0, height_ = 0;  // mean lengths of rows and columns
 };
 

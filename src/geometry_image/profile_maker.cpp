@@ -47,7 +47,7 @@ ChartProfile ProfileMaker::make(uint32_t cell, std::vector<base_complex::Triangl
                            complex_.mesh.position(map.points[c]) * p.barycentrics.z;
     points.push_back(sum / (p.barycentrics.x + p.barycentrics.y + p.barycentrics.z));
   }
-  return {fine, std::move(points), firm};
+  return {fine, points, firm};
 }
 
 // Gives each passage of a cell its share of its side, by length.
