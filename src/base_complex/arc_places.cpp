@@ -12,7 +12,11 @@ namespace {
 class Curve {
  public:
   Curve(const BaseComplex& complex, const Arc& arc)
-      : mesh_(complex.mesh), normals_(complex.normals), points_(arc.points), firm_(arc.firm) {
+      : mesh_(complex.mesh),
+        normals_(complex.normals),
+        points_(arc.points),
+        room_(arc.room),
+        firm_(arc.firm) {
     along_.push_back(0);
     for (size_t i = 1; i < points_.size(); ++i)
       along_.push_back(along_.back() + glm::distance(position(i - 1), position(i)));
@@ -37,7 +41,8 @@ class Curve {
   }
 
   // The point between two places that is farthest from the chord between them, and how far it is. Where the
-  // arc is not firm only what is across the surface counts: along it the chord may lie as it will.
+  // arc is not firm what is across the surface counts, and what is along it only where that leads over a firm
+  // arc: else the chord may lie as it will.
   struct Farthest {
     double distance = 0;
     size_t point = 0;
@@ -51,7 +56,7 @@ class Curve {
       const glm::dvec3 from_a = position(p) - a;
       const double t = length2 > 0 ? std::clamp(glm::dot(from_a, chord) / length2, 0.0, 1.0) : 0.0;
       const glm::dvec3 off = from_a - t * chord;
-      const double distance = firm_ ? glm::length(off) : std::abs(glm::dot(off, normals_[points_[p]]));
+      const double distance = firm_ ? glm::length(off) : off_the_surface(off, p);
       if (distance > found.distance) found = {distance, p};
     }
     return found;
@@ -60,9 +65,16 @@ class Curve {
  private:
   const glm::dvec3& position(size_t i) const { return mesh_.position(points_[i]); }
 
+  double off_the_surface(const glm::dvec3& off, size_t point) const {
+    const glm::dvec3& normal = normals_[points_[point]];
+    const double across = glm::dot(off, normal);
+    return std::max(std::abs(across), glm::length(off - across * normal) - room_[point]);
+  }
+
   const HalfEdgeMesh& mesh_;
   const std::vector<glm::dvec3>& normals_;
   const std::vector<uint32_t>& points_;
+  const std::vector<double>& room_;
   bool firm_;
   std::vector<double> along_;
 };

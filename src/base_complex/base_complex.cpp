@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/base_complex/base_complex.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "lodestone/base/parallel.h"
 #include "lodestone/base_complex/corners.h"
 #include "lodestone/base_complex/nodes.h"
 
@@ -66,6 +69,40 @@ class ArcFinder {
   std::vector<uint32_t> arc_of_edge_;  // by the edge's name
 };
 
+// From a point to the polyline of an arc.
+double distance_to(const HalfEdgeMesh& mesh, const Arc& arc, const glm::dvec3& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + 1 < arc.points.size(); ++i) {
+    const glm::dvec3 a = mesh.position(arc.points[i]), edge = mesh.position(arc.points[i + 1]) - a;
+    const double square = glm::dot(edge, edge);
+    const double t = square > 0 ? std::clamp(glm::dot(point - a, edge) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, glm::distance(point, a + t * edge));
+  }
+  return least;
+}
+
+void find_room(BaseComplex& complex) {
+  std::vector<std::vector<uint32_t>> cells(complex.arcs.size());  // beside each arc
+  for (uint32_t c = 0; c < complex.cells.size(); ++c)
+    for (const Passage& passage : complex.cells[c].boundary) cells[passage.arc].push_back(c);
+  parallel_for(complex.arcs.size(), 1, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) {
+      Arc& arc = complex.arcs[i];
+      if (arc.firm) continue;
+      arc.room.assign(arc.points.size(), std::numeric_limits<double>::infinity());
+      for (const uint32_t cell : cells[i]) {
+        for (const Passage& passage : complex.cells[cell].boundary) {
+          const Arc& other = complex.arcs[passage.arc];
+          if (!other.firm) continue;
+          for (size_t p = 0; p < arc.points.size(); ++p)
+            arc.room[p] =
+                std::min(arc.room[p], distance_to(complex.mesh, other, complex.mesh.position(arc.points[p])));
+        }
+      }
+    }
+  });
+}
+
 std::vector<glm::dvec3> point_normals(const HalfEdgeMesh& mesh) {
   std::vector<glm::dvec3> normals(mesh.points(), glm::dvec3(0));
   for (uint32_t face = 0; face < mesh.faces(); ++face) {
@@ -101,6 +138,7 @@ BaseComplex build_complex(HalfEdgeMesh mesh, Cells cells) {
       choose_corners(complex.mesh, cells, boundaries, is_node);
   complex.cells.resize(cells.count);
   ArcFinder(complex, boundaries, is_node).run(corners);
+  find_room(complex);
   complex.normals = point_normals(complex.mesh);
   complex.cell_of_face = std::move(cells.of_face);
   for (uint32_t face = 0; face < complex.cell_of_face.size(); ++face) {

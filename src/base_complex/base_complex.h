@@ -21,6 +21,9 @@ struct Arc {
   uint32_t cells = 0;  // beside it: 1 on a boundary, 2, or more where the input is not a manifold
   // Whether it is an edge of the surface itself (a boundary, a crease), not only one between cells.
   bool firm = false;
+  // Of one that is not, how far each point is from the nearest firm arc of the cells beside it: so far it may
+  // be moved along the surface and is still on it.
+  std::vector<double> room;
 };
 
 // A cell's passage along an arc; backwards where it runs from the arc's last point to its first.

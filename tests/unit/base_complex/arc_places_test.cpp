@@ -12,7 +12,7 @@ namespace {
 
 // A complex of nothing but one arc, in the plane z = 0 where nothing else is said.
 BaseComplex arc_along(const std::vector<glm::dvec3>& points, bool firm,
-                      const std::vector<glm::dvec3>& normals = {}) {
+                      const std::vector<glm::dvec3>& normals = {}, double room = 1e9) {
   BaseComplex complex(HalfEdgeMesh(points, {}));
   Arc& arc = complex.arcs.emplace_back();
   for (uint32_t p = 0; p < points.size(); ++p) {
@@ -20,6 +20,7 @@ BaseComplex arc_along(const std::vector<glm::dvec3>& points, bool firm,
     if (p > 0) arc.length += glm::distance(points[p - 1], points[p]);
   }
   arc.firm = firm;
+  if (!firm) arc.room.assign(points.size(), room);
   complex.normals = normals.empty() ? std::vector<glm::dvec3>(points.size(), {0, 0, 1}) : normals;
   return complex;
 }
@@ -66,6 +67,14 @@ TEST(ArcPlaces, OfAnArcThatIsNotFirmLeaveBendsWithinTheSurface) {
   const BaseComplex complex = arc_along({{0, 0, 0}, {1, 0, 0}, {1, 3, 0}}, false);
   const std::vector<double> places = arc_places(complex, 0, 8);
   for (size_t i = 0; i < places.size(); ++i) EXPECT_DOUBLE_EQ(places[i], 0.5 * double(i));
+}
+
+TEST(ArcPlaces, OfAnArcThatIsNotFirmStayOnTheSurface) {
+  // A bend round something that is no part of the surface, 0.25 away: the chord leads through it.
+  const std::vector<glm::dvec3> bend = {{0, 0, 0}, {1, 0.75, 0}, {2, 0, 0}};
+  EXPECT_LT(arc_error(arc_along(bend, false), 0, 1), 1e-12);
+  EXPECT_NEAR(arc_error(arc_along(bend, false, {}, 0.25), 0, 1), 0.5, 1e-12);
+  EXPECT_LT(arc_error(arc_along(bend, false, {}, 0.25), 0, 2), 1e-12);
 }
 
 TEST(ArcPlaces, OfAnArcThatIsNotFirmHitClearBendsOfTheSurface) {

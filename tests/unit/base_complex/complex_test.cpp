@@ -226,6 +226,34 @@ TEST(Complex, ArcsAreFirmWhereTheSurfaceHasAnEdge) {
   EXPECT_GE(spine, 1u);
 }
 
+TEST(Complex, KnowsHowFarPointsOfArcsAreFromTheEdgesOfTheSurface) {
+  // One hole in the middle of a plane: what is beside no cell on the outside has only that near.
+  const auto is_hole = [](uint32_t x, uint32_t y) { return x / 4 == 3 && y / 4 == 3; };
+  const BaseComplex complex = complex_of(test::plane(28, 28, is_hole).mesh(), 30);
+  const auto to_edge = [](const glm::dvec3& p) {
+    const double outside = std::min({p.x, p.y, 28 - p.x, 28 - p.y});
+    const double hole = glm::length(glm::max(glm::abs(glm::dvec2(p) - 14.0) - 2.0, glm::dvec2(0)));
+    return std::min(outside, hole);
+  };
+  bool some = false;
+  for (const Arc& arc : complex.arcs) {
+    if (arc.firm) {
+      EXPECT_TRUE(arc.room.empty());
+      continue;
+    }
+    ASSERT_EQ(arc.room.size(), arc.points.size());
+    for (size_t i = 0; i < arc.points.size(); ++i) {
+      // Of an edge that is beside none of its cells an arc knows nothing.
+      EXPECT_GE(arc.room[i], to_edge(complex.mesh.position(arc.points[i])) - 1e-12);
+      some = some || std::abs(arc.room[i] - to_edge(complex.mesh.position(arc.points[i]))) < 1e-12;
+      if (to_edge(complex.mesh.position(arc.points[i])) == 0) {
+        EXPECT_EQ(arc.room[i], 0);
+      }
+    }
+  }
+  EXPECT_TRUE(some);
+}
+
 TEST(Complex, IsTheSameOnAnyNumberOfThreads) {
   for (const test::Sample& sample : test::all_samples()) {
     set_thread_count(1);
