@@ -20,7 +20,7 @@ using base_complex::Side;
 
 constexpr uint32_t longest_side = 1u << 14;  // a chart's sides then fit the layout's Morton codes
 
-// In quads, powers of 2.
+// In quads.
 struct Sides {
   uint32_t width = 1, height = 1;
 };
@@ -28,8 +28,15 @@ struct Sides {
 Sides least_sides(const BaseComplex& complex, const Cell& cell) {
   const std::array<Side, 4> sides = sides_of(complex, cell);
   const auto arcs = [&](size_t s) { return sides[s].end - sides[s].first; };
-  const auto quads = [](size_t most) { return static_cast<uint32_t>(std::bit_ceil(most)); };
-  return {quads(std::max(arcs(0), arcs(2))), quads(std::max(arcs(1), arcs(3)))};
+  return {static_cast<uint32_t>(std::max(arcs(0), arcs(2))),
+          static_cast<uint32_t>(std::max(arcs(1), arcs(3)))};
+}
+
+// Short sides may have any length: there are often many of them, and twice the quads would be far too many.
+// Of long ones powers of 2 fill their MIP pyramids.
+uint32_t next_longer(uint32_t side) {
+  constexpr uint32_t any_to = 8;
+  return side < any_to ? side + 1 : std::bit_ceil(side + 1);
 }
 
 uint64_t texels_of(const Sides& sides) {
@@ -136,12 +143,13 @@ class Refiner {
     return weight * error;
   }
 
-  // Which side to double next: the one that helps more.
+  // Which side to make longer next: the one that helps more.
   void plan(uint64_t chart) {
     Plan& p = plans_[chart];
     p.need = need_of(chart, p.sides);
     p.next = p.sides;
-    const Sides wider = {2 * p.sides.width, p.sides.height}, taller = {p.sides.width, 2 * p.sides.height};
+    const Sides wider = {next_longer(p.sides.width), p.sides.height},
+                taller = {p.sides.width, next_longer(p.sides.height)};
     const bool can_widen = wider.width <= longest_side, can_heighten = taller.height <= longest_side;
     if (!can_widen && !can_heighten) return;
     if (can_widen != can_heighten) {
@@ -152,7 +160,9 @@ class Refiner {
     constexpr double clearly = 0.9, longest = 8;
     const double across = profiles_[chart].width_spacing(p.sides.width),
                  along = profiles_[chart].height_spacing(p.sides.height);
-    const double of_wider = need_of(chart, wider), of_taller = need_of(chart, taller);
+    // One more quad shows little of what a side is good for; twice as many do.
+    const double of_wider = need_of(chart, {2 * p.sides.width, p.sides.height}),
+                 of_taller = need_of(chart, {p.sides.width, 2 * p.sides.height});
     const bool widen = across > longest * along         ? true
                        : along > longest * across       ? false
                        : of_wider < clearly * of_taller ? true
@@ -170,6 +180,12 @@ class Refiner {
 };
 
 }  // namespace
+
+uint64_t least_texels(const BaseComplex& complex) {
+  uint64_t texels = 0;
+  for (const Cell& cell : complex.cells) texels += texels_of(least_sides(complex, cell));
+  return texels;
+}
 
 glm::dvec2 extent_of(const BaseComplex& complex, const Cell& cell) {
   const std::array<Side, 4> sides = sides_of(complex, cell);

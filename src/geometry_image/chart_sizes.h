@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How many samples each patch of a base complex gets: sides of 2^a and 2^b quads, so that its MIP pyramid is
-// full, within a budget for all.
+// How many samples each patch of a base complex gets, within a budget for all.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +32,17 @@ struct Need {
   std::vector<double> chart_weights;  // one a chart, or empty: all 1. The expected error is multiplied by it
 };
 
-// Doubles one side of the chart in greatest need, again and again, while the texels of all are at most
-// `budget`. A side has at least a segment for each of its arcs, even where that takes more than the budget.
+// Makes one side of the chart in greatest need longer, again and again, while the texels of all are at most
+// `budget`: by one quad up to 8, then to the next power of 2. A side has at least a segment for each of its
+// arcs, even where that takes more than the budget.
 // Segments of a side go where arcs are in greatest need: by length, and firm arcs by how far they would be
 // from their samples.
 std::vector<ChartSize> choose_sizes(const base_complex::BaseComplex& complex,
                                     const std::vector<ChartProfile>& profiles, const ArcErrors& arc_errors,
                                     const Need& need, uint64_t budget);
+
+// The texels of all where each side has a segment for each of its arcs and no more.
+uint64_t least_texels(const base_complex::BaseComplex& complex);
 
 // How wide and how high a cell's rectangle is: of the cell's area, and as much wider than high as its sides
 // are.
