@@ -24,6 +24,22 @@ std::vector<glm::uvec3> triangles_of(std::span<const layout::ChartRecord> charts
   return triangles;
 }
 
+// Calls check(point) for the middles of a triangle's edges, its centroid, and as many points between them as
+// it takes that none is farther than `apart` from the next, but no more than some.
+template <class Check>
+void for_samples(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double apart, Check check) {
+  constexpr double most = 8;  // halves of them an edge
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  const int steps = 2 * static_cast<int>(std::clamp(std::ceil(0.5 * longest / apart), 1.0, most));
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; i + j <= steps; ++j) {
+      const bool corner = i == steps || j == steps || i + j == 0;
+      if (!corner) check(a + (b - a) * (double(i) / steps) + (c - a) * (double(j) / steps));
+    }
+  }
+  check((a + b + c) / 3.0);
+}
+
 void sort_out(std::vector<uint32_t>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -32,9 +48,10 @@ void sort_out(std::vector<uint32_t>& list) {
 }  // namespace
 
 ChartErrors::ChartErrors(const base_complex::BaseComplex& complex, const mesh::Surface& input,
-                         const mesh::TriangleTree& input_tree)
+                         const mesh::TriangleTree& input_tree, double apart)
     : input_(input),
       input_tree_(input_tree),
+      apart_(apart),
       neighbours_(complex.cells.size()),
       triangles_(complex.cells.size()),
       chart_of_triangle_(input.triangles.size(), mesh::none),
@@ -80,10 +97,7 @@ void ChartErrors::measure_image(const ChartPoints& image, const std::vector<bool
       };
       for (const glm::uvec3& t : triangles_of(image.charts.subspan(i, 1))) {
         const glm::dvec3 a = image.points[t.x], b = image.points[t.y], c = image.points[t.z];
-        check(0.5 * (a + b));
-        check(0.5 * (a + c));
-        check(0.5 * (b + c));
-        check((a + b + c) / 3.0);
+        for_samples(a, b, c, apart_, check);
       }
     }
   });

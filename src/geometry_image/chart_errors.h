@@ -23,13 +23,15 @@ struct ChartPoints {
 
 class ChartErrors {
  public:
-  // The complex is one of the input's triangles, in their order. All must outlive it.
+  // The complex is one of the input's triangles, in their order. All must outlive it. Charts are measured
+  // at the middles of their triangles and of their edges, and where these are farther than `apart` (> 0) from
+  // each other at points between them; the input at corners and middles of triangles.
   ChartErrors(const base_complex::BaseComplex& complex, const mesh::Surface& input,
-              const mesh::TriangleTree& input_tree);
+              const mesh::TriangleTree& input_tree, double apart);
 
-  // Of each chart the farthest that the middle of a quad's edge, diagonal or triangle is from the input, or a
-  // corner or the middle of one of its input triangles from all charts. `changed` says which charts are not
-  // those of the last call; it counts for a triangle if that is near a chart that changed.
+  // Of each chart the farthest that a point of its triangles is from the input, or a point of one of its
+  // input triangles from all charts. `changed` says which charts are not those of the last call; a triangle
+  // counts if it is near one that changed.
   const std::vector<double>& measure(const ChartPoints& image, const std::vector<bool>& changed);
 
  private:
@@ -38,6 +40,7 @@ class ChartErrors {
 
   const mesh::Surface input_;
   const mesh::TriangleTree& input_tree_;
+  const double apart_;
   std::vector<std::vector<uint32_t>> neighbours_;  // of each chart: those beside it and itself
   std::vector<std::vector<uint32_t>> triangles_;   // of each chart: those of which it has a piece
   std::vector<uint32_t> chart_of_triangle_;        // the one that answers for it

@@ -7,15 +7,13 @@
 
 namespace lodestone::geometry_image {
 
-ChartFeedback::ChartFeedback(const base_complex::BaseComplex& complex,
-                             const std::vector<ChartProfile>& profiles, const ArcErrors& arc_errors,
+ChartFeedback::ChartFeedback(const base_complex::BaseComplex& complex, const ArcErrors& arc_errors,
                              double tolerance, Need need)
     : complex_(complex),
-      profiles_(profiles),
       arc_errors_(arc_errors),
       tolerance_(tolerance),
       need_(std::move(need)),
-      finest_(complex.cells.size()) {
+      before_(complex.cells.size()) {
   need_.found.assign(complex.cells.size(), 0);
 }
 
@@ -24,7 +22,7 @@ bool ChartFeedback::learn(const std::vector<ChartSize>& sizes, const std::vector
   bool learnt = false;
   for (uint32_t c = 0; c < errors.size(); ++c) {
     const double known = std::max(tolerance_, error_of_firm_arcs(c, segments));
-    const double found = learn_of(c, profiles_[c].spacing(sizes[c].width, sizes[c].height), errors[c], known);
+    const double found = learn_of(c, uint64_t(sizes[c].width) * sizes[c].height, errors[c], known);
     learnt = learnt || found != need_.found[c];
     need_.found[c] = found;
   }
@@ -39,30 +37,44 @@ double ChartFeedback::error_of_firm_arcs(uint32_t chart, const std::vector<uint3
   return most;
 }
 
-double ChartFeedback::learn_of(uint32_t chart, double spacing, double error, double known) {
-  constexpr double finer = 0.75, better = 0.9;
-  // Of what was found some counts only: others must not become as coarse as this chart was.
-  constexpr double share = 0.6, farthest = 0.5;
-  Finest& last = finest_[chart];
-  double found = need_.found[chart];
-  if (error > known && spacing < finer * last.spacing && error > better * last.error) {
-    last.in_vain = true;
-    found = 0;
-  } else if (error > known && !last.in_vain && error < spacing) {
-    found = std::max(found, share * std::min(error / spacing, farthest));
+// The need of a chart that is too far grows step by step, and falls slowly where it was more than enough: all
+// share one budget, and who asks for too much makes others coarse.
+double ChartFeedback::learn_of(uint32_t chart, uint64_t quads, double error, double known) {
+  constexpr double growth = 0.8;  // exponent
+  constexpr double most = 0.3, enough = 0.7, decay = 0.9;
+  constexpr uint64_t many = 3;  // times as many quads
+  constexpr double better = 0.9;
+  Before& before = before_[chart];
+  const double found = need_.found[chart];
+  if (before.in_vain) return found;
+  if (quads >= many * before.quads) {
+    if (error > known && error > better * before.error) {
+      before.in_vain = true;
+      return before.found;
+    }
+    before.quads = quads;
+    before.error = error;
+    before.found = found;
   }
-  if (spacing < last.spacing) {
-    last.spacing = spacing;
-    last.error = error;
+  if (error > known) {
+    before.too_little = std::max(before.too_little, found);
+    return std::min(most, std::max(found, need_.flattest) * std::pow(error / known, growth));
   }
-  return found;
+  return error < enough * known && decay * found > before.too_little ? decay * found : found;
 }
 
 double ChartFeedback::badness(const std::vector<double>& errors) const {
-  constexpr double power = 8;
+  constexpr double power = 16;
   double sum = 0;
-  for (const double error : errors) sum += std::pow(error / tolerance_, power);
+  for (const double error : errors) sum += error > 0 ? std::pow(error / tolerance_, power) : 0.0;
   return sum;
+}
+
+std::vector<uint32_t> ChartFeedback::hopeless(const std::vector<double>& errors) const {
+  std::vector<uint32_t> list;
+  for (uint32_t c = 0; c < errors.size(); ++c)
+    if (errors[c] > tolerance_ && before_[c].in_vain) list.push_back(c);
+  return list;
 }
 
 }  // namespace lodestone::geometry_image

@@ -50,13 +50,18 @@ Need need_of(Signal signal) {
 // until so many attempts have brought nothing better.
 constexpr double tolerated = 0.004;
 constexpr uint32_t patience = 10, most_attempts = 16;
+constexpr double apart = 4;  // in tolerances, the points that are measured
 // Cells with more arcs are split: a side has a segment for each of its arcs at least, so the fewest quads of
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
 // Cells of more faces are split where their map is uneven: the root mean square of its stretch is larger, as
-// it is where a limb was to be flattened.
+// it is where a limb was to be flattened. But only while the budget is so many times what the cells need:
+// each has arcs of its own, and they cost texels that all others then lack.
 constexpr size_t worth_splitting = 32;
 constexpr double too_uneven = 2.5;
+constexpr uint64_t plenty = 6;
+// Cells that stay too far from the surface are split again if that has brought so much.
+constexpr double worthwhile = 0.9;  // of the badness before
 
 // In the rest pose. A transform may overflow: such a point lies anywhere, but somewhere.
 std::vector<glm::vec3> finite_positions(const scene::Scene& scene, const scene::Assembly& assembly) {
@@ -124,12 +129,16 @@ class ChartMaker {
     Cells cells = grow_cells(mesh, options);
     if (leave_out_soup(mesh, cells)) return false;
     RoundsLeft left;
+    Best best;
     for (int round = 0;; ++round) {
-      std::vector<uint32_t> failed = try_cells(mesh, cells, result, left);
-      if (failed.empty()) return true;
+      const std::vector<uint32_t> to_split = try_cells(mesh, cells, best, left);
+      if (to_split.empty() || (round >= most_rounds && best.exists())) {
+        result = std::move(best.charts);
+        return true;
+      }
       std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
-      for (const uint32_t cell : failed) {
-        if (round == most_rounds || !halve_cell(mesh, cells, faces, cell)) {
+      for (const uint32_t cell : to_split) {
+        if (round >= most_rounds || !halve_cell(mesh, cells, faces, cell)) {
           leave_out_cell(mesh, cells, cell);
           return false;
         }
@@ -148,14 +157,21 @@ class ChartMaker {
     return HalfEdgeMesh(std::vector<glm::dvec3>(positions_.begin(), positions_.end()), corners);
   }
 
-  // How often cells may still be split that have too many arcs, and those whose maps are uneven. Many of the
-  // latter are so however small they are.
+  // How often cells may still be split that have too many arcs, those whose maps are uneven (many are so
+  // however small they are), and those that stay too far from the surface.
   struct RoundsLeft {
-    int crowded = 6, uneven = 4;
+    int crowded = 6, uneven = 4, hopeless = 3;
   };
 
-  // Charts of the cells; returns the cells that could not be mapped.
-  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, MappedCharts& result,
+  struct Best {
+    MappedCharts charts;
+    double badness = std::numeric_limits<double>::infinity();
+    bool exists() const { return !charts.charts.empty(); }
+  };
+
+  // Makes charts of the cells, the best of all so far. Returns cells to split for a better try: those that
+  // could not be mapped, or not well.
+  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, Best& best,
                                   RoundsLeft& left) const {
     stage("complex");
     const BaseComplex complex = build_complex(mesh, cells);
@@ -176,42 +192,53 @@ class ChartMaker {
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    failed = improve(source, profiles, left.uneven > 0, result);
-    if (!failed.empty()) --left.uneven;
-    return failed;
+    const bool may_split = left.uneven > 0 && plenty * least_texels(complex) <= budget_;
+    return improve(source, profiles, may_split, best, left);
   }
 
-  // The best of some attempts, each of which gives more texels to what was too far from the surface before;
-  // or the cells that could not be mapped.
+  // The best of some attempts, each of which gives more texels to what was too far from the surface before.
+  // Returns as try_cells().
   std::vector<uint32_t> improve(const ChartSource& source, const std::vector<ChartProfile>& profiles,
-                                bool may_split, MappedCharts& result) const {
+                                bool may_split, Best& best, RoundsLeft& left) const {
     const BaseComplex& complex = source.complex;
     const mesh::Surface surface = {positions_, corners_};
     const ArcErrors arc_errors(complex);
-    ChartFeedback feedback(complex, profiles, arc_errors, tolerated * mesh::diagonal(surface), need(source));
+    const double tolerance = tolerated * mesh::diagonal(surface);
+    ChartFeedback feedback(complex, arc_errors, tolerance, need(source));
     SampledCharts charts(source);
-    ChartErrors chart_errors(complex, surface, *tree_);
+    ChartErrors chart_errors(complex, surface, *tree_, apart * tolerance);
+    std::vector<uint32_t> hopeless;
+    const double least_before = best.badness;
     double least = std::numeric_limits<double>::infinity();
-    for (uint32_t attempt = 0, best = 0; attempt < std::min(best + patience, most_attempts); ++attempt) {
+    uint32_t best_attempt = 0;
+    for (uint32_t attempt = 0; attempt < std::min(best_attempt + patience, most_attempts); ++attempt) {
       stage("sizes");
       const std::vector<ChartSize> sizes =
           choose_sizes(complex, profiles, arc_errors, feedback.need(), budget_);
       stage("maps");
       std::vector<uint32_t> failed = charts.resize(sizes);
       if (failed.empty() && may_split) failed = uneven(complex, charts);
-      if (!failed.empty()) return failed;
+      if (!failed.empty()) {
+        --left.uneven;
+        return failed;
+      }
       stage("errors");
       const std::vector<glm::vec3> points = at_texels(assembly_, charts.texels(), positions_);
       const std::vector<double>& errors = chart_errors.measure({charts.records(), points}, charts.changed());
       const double bad = feedback.badness(errors);
       if (attempt == 0 || bad < least) {
         least = bad;
-        best = attempt;
-        result = charts.result();
+        best_attempt = attempt;
+        if (!best.exists() || bad < best.badness) best = {charts.result(), bad};
       }
-      if (!feedback.learn(sizes, errors)) break;
+      const bool learnt = feedback.learn(sizes, errors);
+      hopeless = feedback.hopeless(errors);
+      if (!learnt) break;
     }
-    return {};
+    const bool affordable = 4 * least_texels(complex) <= 3 * budget_;
+    if (!affordable || left.hopeless-- <= 0 || least > worthwhile * least_before) return {};
+    std::erase_if(hopeless, [&](uint32_t c) { return complex.cells[c].faces.size() <= worth_splitting; });
+    return hopeless;
   }
 
   static std::vector<uint32_t> uneven(const BaseComplex& complex, const SampledCharts& charts) {
