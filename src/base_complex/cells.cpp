@@ -150,6 +150,16 @@ class Grower {
     queue_.push({cost, face, seed});
   }
 
+  // Pieces of so few triangles of the input are one cell, or as few as make discs, however long they are: arcs
+  // between more would cost more than they give.
+  bool is_small(const std::vector<uint32_t>& region) const {
+    constexpr size_t few = 100;
+    std::vector<uint32_t> triangles;
+    for (const uint32_t face : region) triangles.push_back(mesh_.triangle(face));
+    std::sort(triangles.begin(), triangles.end());
+    return size_t(std::unique(triangles.begin(), triangles.end()) - triangles.begin()) <= few;
+  }
+
   // One seed, and another where the region is farthest from all so far, until nothing is too far.
   void seed(const std::vector<uint32_t>& region) {
     const auto grow_from = [&](uint32_t face) {
@@ -158,6 +168,7 @@ class Grower {
       spread();
     };
     grow_from(region.front());
+    if (is_small(region)) return;
     // Faces only come nearer, so what is on top is the farthest where its distance is still true.
     std::priority_queue<Far> farthest;
     for (const uint32_t face : region)
