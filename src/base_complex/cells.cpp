@@ -150,8 +150,8 @@ class Grower {
     queue_.push({cost, face, seed});
   }
 
-  // Pieces of so few triangles of the input are one cell, or as few as make discs, however long they are: arcs
-  // between more would cost more than they give.
+  // Pieces of so few triangles of the input are one cell, or as few as make discs, however long they are:
+  // arcs between more would cost more than they give.
   bool is_small(const std::vector<uint32_t>& region) const {
     constexpr size_t few = 100;
     std::vector<uint32_t> triangles;

@@ -172,29 +172,6 @@ class CornerChoice {
   std::vector<uint32_t> candidates_;
 };
 
-// The angle between two edges of a face at the start of a half-edge.
-double corner_angle(const HalfEdgeMesh& mesh, uint32_t half_edge) {
-  const glm::dvec3 here = mesh.position(mesh.from(half_edge));
-  const glm::dvec3 a = mesh.position(mesh.to(half_edge)) - here;
-  const glm::dvec3 b = mesh.position(mesh.from(previous(half_edge))) - here;
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-// The angle of the cell at the start of each half-edge of its boundary.
-std::vector<double> boundary_angles(const HalfEdgeMesh& mesh, const Cells& cells,
-                                    const std::vector<uint32_t>& boundary) {
-  std::vector<double> angles;
-  for (const uint32_t start : boundary) {
-    const uint32_t cell = cells.of_face[face_of(start)];
-    double angle = corner_angle(mesh, start);
-    for (uint32_t twin = mesh.twin(previous(start)); twin != none && cells.of_face[face_of(twin)] == cell;
-         twin = mesh.twin(previous(twin)))
-      angle += corner_angle(mesh, twin);
-    angles.push_back(angle);
-  }
-  return angles;
-}
-
 }  // namespace
 
 std::vector<std::array<uint32_t, 4>> choose_corners(const HalfEdgeMesh& mesh, const Cells& cells,
@@ -203,7 +180,7 @@ std::vector<std::array<uint32_t, 4>> choose_corners(const HalfEdgeMesh& mesh, co
   std::vector<std::array<uint32_t, 4>> corners(boundaries.size());
   parallel_for(boundaries.size(), 1, [&](uint64_t begin, uint64_t end) {
     for (uint64_t cell = begin; cell < end; ++cell) {
-      const std::vector<double> angles = boundary_angles(mesh, cells, boundaries[cell]);
+      const std::vector<double> angles = boundary_angles(mesh, cells.of_face, boundaries[cell]);
       corners[cell] = CornerChoice(mesh, boundaries[cell], angles, is_node).run();
     }
   });

@@ -2,6 +2,7 @@
 #include "lodestone/base_complex/nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -68,7 +69,7 @@ class BorderGraph {
 class NodeFinder {
  public:
   NodeFinder(const HalfEdgeMesh& mesh, const Cells& cells, const Boundaries& boundaries)
-      : mesh_(mesh), boundaries_(boundaries), is_node_(mesh.points(), false) {
+      : mesh_(mesh), cells_(cells), boundaries_(boundaries), is_node_(mesh.points(), false) {
     const BorderGraph graph(mesh, cells);
     graph.for_each_point([&](uint32_t point, const std::vector<uint32_t>& edges) {
       if (!graph.goes_on(edges)) is_node_[point] = true;
@@ -76,6 +77,7 @@ class NodeFinder {
   }
 
   std::vector<bool> run() {
+    mark_corners_of_tiny_cells();
     for (const std::vector<uint32_t>& boundary : boundaries_) fill_up(boundary);
     while (part_equal_arcs()) {
     }
@@ -83,13 +85,47 @@ class NodeFinder {
   }
 
  private:
-  // At least three nodes, as far from each other as can be.
+  // Where a cell is a triangle of the input or two, all their corners: so the least chart is all of them.
+  void mark_corners_of_tiny_cells() {
+    constexpr uint32_t tiny = 2;
+    std::vector<std::array<uint32_t, tiny>> triangles(cells_.count, {none, none});
+    std::vector<bool> larger(cells_.count, false);
+    for (uint32_t face = 0; face < mesh_.faces(); ++face) {
+      const uint32_t cell = cells_.of_face[face], triangle = mesh_.triangle(face);
+      std::array<uint32_t, tiny>& known = triangles[cell];
+      const auto place =
+          std::find_if(known.begin(), known.end(), [&](uint32_t t) { return t == triangle || t == none; });
+      if (place == known.end()) {
+        larger[cell] = true;
+      } else {
+        *place = triangle;
+      }
+    }
+    for (uint32_t cell = 0; cell < cells_.count; ++cell) {
+      if (larger[cell]) continue;
+      for (const uint32_t h : boundaries_[cell]) {
+        const glm::dvec3 at = mesh_.barycentrics(h);
+        if (std::max({at.x, at.y, at.z}) == 1) is_node_[mesh_.from(h)] = true;
+      }
+    }
+  }
+
+  // At least three nodes: the sharpest corners or, where there are too few, points as far from each other as
+  // can be.
   void fill_up(const std::vector<uint32_t>& boundary) {
     constexpr size_t fewest = 3;
     const Outline outline(mesh_, boundary);
     std::vector<size_t> nodes;
     for (size_t i = 0; i < boundary.size(); ++i)
       if (is_node_[mesh_.from(boundary[i])]) nodes.push_back(i);
+    if (nodes.size() < fewest) {
+      for (const size_t corner : sharp_corners(boundary)) {
+        if (nodes.size() == fewest) break;
+        if (is_node_[mesh_.from(boundary[corner])]) continue;
+        nodes.push_back(corner);
+        is_node_[mesh_.from(boundary[corner])] = true;
+      }
+    }
     if (nodes.empty()) {
       nodes.push_back(0);
       is_node_[mesh_.from(boundary[0])] = true;
@@ -109,6 +145,18 @@ class NodeFinder {
       nodes.push_back(best);
       is_node_[mesh_.from(boundary[best])] = true;
     }
+  }
+
+  // The sharpest first.
+  std::vector<size_t> sharp_corners(const std::vector<uint32_t>& boundary) const {
+    constexpr double sharp = 1.75;  // 100 degrees
+    const std::vector<double> angles = boundary_angles(mesh_, cells_.of_face, boundary);
+    std::vector<size_t> corners;
+    for (size_t i = 0; i < boundary.size(); ++i)
+      if (angles[i] < sharp) corners.push_back(i);
+    std::stable_sort(corners.begin(), corners.end(),
+                     [&](size_t a, size_t b) { return angles[a] < angles[b]; });
+    return corners;
   }
 
   // Puts a node on one of two arcs that have the same ends. False where there are none.
@@ -146,6 +194,7 @@ class NodeFinder {
   }
 
   const HalfEdgeMesh& mesh_;
+  const Cells& cells_;
   const Boundaries& boundaries_;
   std::vector<bool> is_node_;
 };

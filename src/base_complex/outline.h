@@ -25,4 +25,8 @@ struct Outline {
   double length = 0;
 };
 
+// The angle of the cell at the start of each half-edge of its boundary, as measured on the surface.
+std::vector<double> boundary_angles(const HalfEdgeMesh& mesh, const std::vector<uint32_t>& cell_of_face,
+                                    const std::vector<uint32_t>& boundary);
+
 }  // namespace lodestone::base_complex

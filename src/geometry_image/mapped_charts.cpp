@@ -10,6 +10,7 @@
 #include "lodestone/base/disjoint_sets.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/base_complex/base_complex.h"
+#include "lodestone/base_complex/dual.h"
 #include "lodestone/geometry_image/arc_errors.h"
 #include "lodestone/geometry_image/chart_errors.h"
 #include "lodestone/geometry_image/chart_feedback.h"
@@ -55,11 +56,11 @@ constexpr double apart = 4;  // in tolerances, the points that are measured
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
 // Cells of more faces are split where their map is uneven: the root mean square of its stretch is larger, as
-// it is where a limb was to be flattened. But only while the budget is so many times what the cells need:
-// each has arcs of its own, and they cost texels that all others then lack.
+// it is where a limb was to be flattened. But that, and a proper dual, is cared for only while the budget is
+// so many times what the cells need: each has arcs of its own, which cost texels that all others then lack.
 constexpr size_t worth_splitting = 32;
 constexpr double too_uneven = 2.5;
-constexpr uint64_t plenty = 6;
+constexpr uint64_t plenty = 8;
 // Cells that stay too far from the surface are split again if that has brought so much.
 constexpr double worthwhile = 0.9;  // of the badness before
 
@@ -157,10 +158,10 @@ class ChartMaker {
     return HalfEdgeMesh(std::vector<glm::dvec3>(positions_.begin(), positions_.end()), corners);
   }
 
-  // How often cells may still be split that have too many arcs, those whose maps are uneven (many are so
-  // however small they are), and those that stay too far from the surface.
+  // How often cells may still be split that have too many arcs, those for which the dual is not proper, those
+  // whose maps are uneven (many are so however small they are), and those that stay too far from the surface.
   struct RoundsLeft {
-    int crowded = 6, uneven = 4, hopeless = 3;
+    int crowded = 6, improper = 6, uneven = 4, hopeless = 3;
   };
 
   struct Best {
@@ -184,6 +185,12 @@ class ChartMaker {
       --left.crowded;
       return crowded;
     }
+    const bool texels_abound = plenty * least_texels(complex) <= budget_;
+    if (texels_abound && left.improper-- > 0) {
+      std::vector<uint32_t> improper = cells_against_proper_dual(complex);
+      std::erase_if(improper, [&](uint32_t c) { return complex.cells[c].faces.size() < 2; });
+      if (!improper.empty()) return improper;
+    }
     const ChartSource source = {
         complex, assembly_, welded_, triangles_, metrics_ ? &*metrics_ : nullptr, settings_.keep_maps};
     std::vector<std::optional<ChartProfile>> found(complex.cells.size());
@@ -192,8 +199,7 @@ class ChartMaker {
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    const bool may_split = left.uneven > 0 && plenty * least_texels(complex) <= budget_;
-    return improve(source, profiles, may_split, best, left);
+    return improve(source, profiles, texels_abound && left.uneven > 0, best, left);
   }
 
   // The best of some attempts, each of which gives more texels to what was too far from the surface before.

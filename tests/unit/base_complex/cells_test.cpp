@@ -105,6 +105,14 @@ TEST(Cells, AreAboutAsManyAsAskedFor) {
   }
 }
 
+TEST(Cells, OfAPieceOfFewTrianglesIsOneHoweverLong) {
+  HalfEdgeMesh strip = test::plane(45, 1).mesh(), long_strip = test::plane(200, 1).mesh();
+  CellOptions options;
+  options.cells = 30;
+  EXPECT_EQ(grow_cells(strip, options).count, 1u);
+  EXPECT_GT(grow_cells(long_strip, options).count, 10u);
+}
+
 TEST(Cells, AreSmallerWhereASurfaceTurns) {
   CellOptions options, flat;
   options.cells = flat.cells = 30;

@@ -368,6 +368,32 @@ TEST(MappedCharts, TakeASurfaceThatIsOnePointAtRest) {
   }
 }
 
+TEST(MappedCharts, OfATriangleOrTwoInAPlaneAreAllOfThem) {
+  shapes::Surface one, two;
+  for (shapes::Surface* s : {&one, &two}) {
+    s->add({0, 0, 0});
+    s->add({3, 0, 0.25});
+    s->add({0, 1, 0.5});
+    s->triangles.emplace_back(0, 1, 2);
+  }
+  two.add({-1, 0.5, 1.0 / 6});
+  two.triangles.emplace_back(0, 2, 3);
+  for (const shapes::Surface& surface : {one, two}) {
+    for (const uint64_t budget : {4u, 9u, 100u}) {
+      const Made made(surface, settings_of(budget));
+      EXPECT_EQ(made.atlas.charts.size(), 1u);
+      const AtlasReport& report = made.atlas.report;
+      // A flat corner may be no corner of the rectangle.
+      EXPECT_LE(report.texels, std::max(budget, uint64_t(6)));
+      double area = 0;
+      for (const glm::uvec3& t : surface.triangles)
+        area += 0.5 * glm::length(glm::cross(surface.positions[t.y] - surface.positions[t.x],
+                                             surface.positions[t.z] - surface.positions[t.x]));
+      EXPECT_NEAR(made.area(), area, 1e-6 * area) << budget;
+    }
+  }
+}
+
 // A road from under the camera to far away.
 scene::Scene road_with_camera() {
   scene::Scene scene = test::scene_of({mesh_from(shapes::plane(200, 8))});
