@@ -56,11 +56,12 @@ constexpr double apart = 4;  // in tolerances, the points that are measured
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
 // Cells of more faces are split where their map is uneven: the root mean square of its stretch is larger, as
-// it is where a limb was to be flattened. But that, and a proper dual, is cared for only while the budget is
-// so many times what the cells need: each has arcs of its own, which cost texels that all others then lack.
+// it is where a limb was to be flattened.
 constexpr size_t worth_splitting = 32;
 constexpr double too_uneven = 2.5;
-constexpr uint64_t plenty = 8;
+// That, and a proper dual, are cared for only while the budget is so many times what the cells need: each has
+// arcs of its own, which cost texels that all others then lack.
+constexpr uint64_t plenty_for_evenness = 6, plenty_for_dual = 8;
 // Cells that stay too far from the surface are split again if that has brought so much.
 constexpr double worthwhile = 0.9;  // of the badness before
 
@@ -133,19 +134,26 @@ class ChartMaker {
     Best best;
     for (int round = 0;; ++round) {
       const std::vector<uint32_t> to_split = try_cells(mesh, cells, best, left);
-      if (to_split.empty() || (round >= most_rounds && best.exists())) {
+      const uint32_t stuck =
+          to_split.empty() ? base_complex::none : split(mesh, cells, to_split, round < most_rounds);
+      if (to_split.empty() || (stuck != base_complex::none && best.exists())) {
         result = std::move(best.charts);
         return true;
       }
-      std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
-      for (const uint32_t cell : to_split) {
-        if (round >= most_rounds || !halve_cell(mesh, cells, faces, cell)) {
-          leave_out_cell(mesh, cells, cell);
-          return false;
-        }
+      if (stuck != base_complex::none) {
+        leave_out_cell(mesh, cells, stuck);
+        return false;
       }
-      make_discs(mesh, cells);
     }
+  }
+
+  // Returns a cell that cannot be split any more, if there is one; then the others may be split or not.
+  static uint32_t split(HalfEdgeMesh& mesh, Cells& cells, const std::vector<uint32_t>& to_split, bool may) {
+    std::vector<std::vector<uint32_t>> faces = faces_by_cell(cells);
+    for (const uint32_t cell : to_split)
+      if (!may || !halve_cell(mesh, cells, faces, cell)) return cell;
+    make_discs(mesh, cells);
+    return base_complex::none;
   }
 
   HalfEdgeMesh make_mesh() const {
@@ -185,8 +193,8 @@ class ChartMaker {
       --left.crowded;
       return crowded;
     }
-    const bool texels_abound = plenty * least_texels(complex) <= budget_;
-    if (texels_abound && left.improper-- > 0) {
+    const uint64_t least = least_texels(complex);
+    if (plenty_for_dual * least <= budget_ && left.improper-- > 0) {
       std::vector<uint32_t> improper = cells_against_proper_dual(complex);
       std::erase_if(improper, [&](uint32_t c) { return complex.cells[c].faces.size() < 2; });
       if (!improper.empty()) return improper;
@@ -199,7 +207,7 @@ class ChartMaker {
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
     for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    return improve(source, profiles, texels_abound && left.uneven > 0, best, left);
+    return improve(source, profiles, plenty_for_evenness * least <= budget_ && left.uneven > 0, best, left);
   }
 
   // The best of some attempts, each of which gives more texels to what was too far from the surface before.
