@@ -75,9 +75,11 @@ class Lattice {
   double error_of_quad(uint32_t x, uint32_t y, uint32_t step_x, uint32_t step_y) const {
     const glm::dvec3 &a = at(x, y), &b = at(x + step_x, y), &c = at(x, y + step_y),
                      &d = at(x + step_x, y + step_y);
+    constexpr uint32_t enough = 4;  // samples along each side
+    const uint32_t skip_x = std::max(step_x / enough, 1u), skip_y = std::max(step_y / enough, 1u);
     double most = 0;
-    for (uint32_t j = 0; j <= step_y; ++j) {
-      for (uint32_t i = 0; i <= step_x; ++i) {
+    for (uint32_t j = 0; j <= step_y; j += skip_y) {
+      for (uint32_t i = 0; i <= step_x; i += skip_x) {
         const double u = double(i) / step_x, v = double(j) / step_y;
         const glm::dvec3 flat =
             u + v <= 1 ? a + u * (b - a) + v * (c - a) : d + (1 - u) * (c - d) + (1 - v) * (b - d);

@@ -25,7 +25,7 @@ class ChartProfile {
   // `points` are the (2^width + 1) x (2^height + 1) samples of a lattice, row by row.
   ChartProfile(ChartPowers powers, const std::vector<glm::dvec3>& points, const std::vector<FirmArc>& firm);
 
-  // How far, at most, samples of the fine lattice are from the quads of a coarser one (sides in quads),
+  // How far, at most, some samples of the fine lattice are from the quads of a coarser one (sides in quads),
   // measured across the surface; for sliding along it is no error, unless it leads over a firm arc. Of sides
   // between two powers of 2 it is something between theirs. Of a finer lattice than the profile's it is what
   // the error would shrink to if it fell with the square of the spacing.
