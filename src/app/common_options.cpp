@@ -23,8 +23,9 @@ constexpr uint32_t max_threads = 4096;
 constexpr uint32_t max_resolution = 32768;  // of all charts together: 2^30 texels
 
 // An option for resampling that is given; null where none is.
-const char* resampling_option(const geometry_image::ChartSettings& charts) {
-  return charts.texel_budget != 0                        ? "--resolution"
+const char* resampling_option(const SceneOptions& options) {
+  const geometry_image::ChartSettings& charts = options.atlas.charts;
+  return charts.texel_budget != 0                        ? options.budget_option
          : charts.signal != geometry_image::Signal::area ? "--signal"
          : charts.all_shapes                             ? "--all-shapes"
                                                          : nullptr;
@@ -33,7 +34,7 @@ const char* resampling_option(const geometry_image::ChartSettings& charts) {
 // Throws Error(usage) where options for resampling are given with an atlas that resamples nothing.
 void check_atlas_options(const SceneOptions& options) {
   using geometry_image::AtlasKind;
-  const char* option = resampling_option(options.atlas.charts);
+  const char* option = resampling_option(options);
   if (option == nullptr) return;
   if (options.atlas.kind == AtlasKind::grid || options.atlas.kind == AtlasKind::exact)
     fail(ExitCode::usage, option,
@@ -43,7 +44,7 @@ void check_atlas_options(const SceneOptions& options) {
 
 // Throws Error(usage) where they are given with auto, which keeps the grids of all that is in this scene.
 void check_resamples(const SceneOptions& options, const scene::Scene& scene) {
-  const char* option = resampling_option(options.atlas.charts);
+  const char* option = resampling_option(options);
   if (option == nullptr || options.atlas.kind != geometry_image::AtlasKind::automatic) return;
   const bool all_grids = std::all_of(scene.meshes.begin(), scene.meshes.end(), [](const scene::Mesh& mesh) {
     return !mesh.grids.empty() || mesh.triangles.empty();
@@ -116,12 +117,14 @@ void add_atlas_options(CLI::App& app, SceneOptions& options) {
                 [&](const std::string& text) {
                   const uint64_t side = parse_count("--resolution", text, 2, max_resolution);
                   options.atlas.charts.texel_budget = side * side;
+                  options.budget_option = "--resolution";
                 });
   add_value(app, "--texel-budget", "N",
             "With --atlas charts or auto: N texels in all (default: about one a triangle)",
             [&](const std::string& text) {
               options.atlas.charts.texel_budget =
                   parse_count("--texel-budget", text, 4, uint64_t(max_resolution) * max_resolution);
+              options.budget_option = "--texel-budget";
             })
       ->excludes(resolution);
   add_value(app, "--signal", "NAME",

@@ -31,6 +31,7 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
 struct SceneOptions {
   std::string scene;
   geometry_image::AtlasSettings atlas;
+  const char* budget_option = "";  // that gave the texel budget, for messages
   float height_scale = 0;
 };
 void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height

@@ -76,7 +76,8 @@ TEST_P(Pictures, GoThroughManyCutOutLayers) {
   layers.push_back(square(-0.5f, 1));
   const image::Image image = render(facing_camera(layers, {colored(red, 0, true), colored(blue)}));
   EXPECT_NEAR(value(image, "albedo.B", 8, 8), 1, rounding());
-  EXPECT_EQ(value(image, "depth.Z", 8, 8), 3.5f);
+  // Exact to the last bit where texels are vertices; samples at thirds of a side are rounded.
+  EXPECT_NEAR(value(image, "depth.Z", 8, 8), 3.5f, 3.5f * rounding());
 }
 
 // Green of a normal map points against v, which runs down: a bump lit from above is light at its upper side.
