@@ -26,8 +26,7 @@ const char* chart_fault(const Atlas& atlas, const layout::ChartRecord& chart, ui
   if (chart.first_triangle + triangle_count(chart) > atlas.report.triangles)
     return "a chart of triangles that do not exist";
   const uint64_t own = QuadOrder::block_slots(chart), block = chart.slot_count;
-  const bool may_be_larger = chart.kind == layout::chart_mapped && block >= own && std::has_single_bit(block);
-  if ((block != own && !may_be_larger) || chart.first_slot % block != 0)
+  if (block < own || !std::has_single_bit(block) || chart.first_slot % block != 0)
     return "a chart whose block is not its own";
   if (chart.first_slot + block > atlas.leaf_map.size()) return "a chart outside the hierarchy";
   return nullptr;

@@ -8,54 +8,56 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/quad_order.h"
+#include "lodestone/geometry_image/slot_tree.h"
 
 namespace lodestone::geometry_image {
 namespace {
 
 constexpr uint64_t slot_limit = uint64_t(1) << (2 * layout::max_depth);
 
-uint64_t block_of(const layout::ChartRecord& chart, uint64_t least) {
-  const uint64_t own = QuadOrder::block_slots(chart);
-  return chart.kind == layout::chart_mapped ? std::max(own, least) : own;
-}
-
-uint64_t slots_of(const std::vector<layout::ChartRecord>& charts, uint64_t least) {
+uint64_t slots_of(const std::vector<layout::ChartRecord>& charts) {
   uint64_t slots = 0;
-  for (const layout::ChartRecord& chart : charts) slots += block_of(chart, least);
+  for (const layout::ChartRecord& chart : charts) slots += QuadOrder::block_slots(chart);
   return slots;
 }
 
-// The least block of a mapped chart. Small ones lie here and there on the surface: nodes that only they share
-// are boxes round all of it, a second tree that nearly every ray goes through. With as many slots as others
-// have, most of them empty, each stands beside the charts that it lies beside.
-uint64_t least_block(const std::vector<layout::ChartRecord>& charts) {
-  constexpr double dearest = 1.2;  // times as many slots
-  const uint64_t tight = slots_of(charts, 1);
-  const auto most = static_cast<uint64_t>(dearest * double(tight));
-  uint64_t least = 1;
-  for (uint64_t block = 2; block <= tight; block *= 2) {
-    const uint64_t slots = slots_of(charts, block);
-    if (slots > most || tree_depth(slots) > tree_depth(tight)) break;
-    least = block;
+// Mapped charts are of many sizes and lie anywhere. False where they have to be placed as all others.
+bool assign_by_place(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers) {
+  const bool mapped = std::any_of(charts.begin(), charts.end(), [](const layout::ChartRecord& chart) {
+    return chart.kind == layout::chart_mapped;
+  });
+  if (!mapped || centers.empty()) return false;
+  std::vector<uint64_t> needed;
+  for (const layout::ChartRecord& chart : charts) needed.push_back(QuadOrder::block_slots(chart));
+  const std::vector<Block> blocks = slots_by_place(needed, centers);
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    charts[i].first_slot = static_cast<uint32_t>(blocks[i].first_slot);
+    charts[i].slot_count = static_cast<uint32_t>(blocks[i].slots);
   }
-  return least;
+  return !blocks.empty();
 }
 
 }  // namespace
 
 uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers,
                       ChartOrder order, const std::string& subject) {
-  const uint64_t least = least_block(charts), slots = slots_of(charts, least);
+  const uint64_t slots = slots_of(charts);
   if (slots > slot_limit) {
     fail_input(subject,
                "needs a hierarchy of {} leaf slots for {} charts, and {} is the most; draw fewer meshes, or "
                "simplify them",
                slots, charts.size(), slot_limit);
   }
+  if (assign_by_place(charts, centers)) {
+    uint64_t end = 0;
+    for (const layout::ChartRecord& chart : charts)
+      end = std::max(end, uint64_t(chart.first_slot) + chart.slot_count);
+    return end;
+  }
   // Nodes of 4^k slots, by k: charts that fill one, and charts of which two do.
   std::array<std::vector<ChartCenter>, layout::max_depth + 1> whole, halves;
   for (uint32_t i = 0; i < charts.size(); ++i) {
-    const auto bits = static_cast<size_t>(std::bit_width(block_of(charts[i], least)) - 1);
+    const auto bits = static_cast<size_t>(std::bit_width(QuadOrder::block_slots(charts[i])) - 1);
     (bits % 2 == 0 ? whole : halves)[(bits + 1) / 2].push_back(
         {centers.empty() ? glm::vec3(0) : centers[i], i});
   }
