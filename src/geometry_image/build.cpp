@@ -46,9 +46,9 @@ std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly&
   return as_grid;
 }
 
-// Middle of a chart's bounding box.
-glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions, const Atlas& atlas,
-                 const layout::ChartRecord& chart) {
+// Of the triangles of a chart.
+ChartBox box_of(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions, const Atlas& atlas,
+                const layout::ChartRecord& chart) {
   glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
   const auto include = [&](uint32_t triangle) {
     for (glm::length_t corner = 0; corner < 3; ++corner) {
@@ -63,22 +63,21 @@ glm::vec3 center(const scene::Assembly& assembly, const std::vector<glm::vec3>& 
       include(static_cast<uint32_t>(chart.first_triangle + i));
   }
   // A transform may overflow; where the chart is put then does not matter, but numbers must have an order.
-  glm::vec3 middle = 0.5f * lo + 0.5f * hi;
   for (glm::length_t axis = 0; axis < 3; ++axis)
-    middle[axis] = std::isfinite(middle[axis]) ? middle[axis] : 0.0f;
-  return middle;
+    if (!std::isfinite(lo[axis]) || !std::isfinite(hi[axis])) lo[axis] = hi[axis] = 0;
+  return {lo, hi};
 }
 
 // In the rest pose.
-std::vector<glm::vec3> chart_centers(const scene::Scene& scene, const scene::Assembly& assembly,
-                                     const Atlas& atlas) {
+std::vector<ChartBox> chart_boxes(const scene::Scene& scene, const scene::Assembly& assembly,
+                                  const Atlas& atlas) {
   constexpr uint64_t grain = 1u << 10;
   const std::vector<glm::vec3> positions = scene::rest_positions(scene, assembly);
-  std::vector<glm::vec3> centers(atlas.charts.size());
-  parallel_for(centers.size(), grain, [&](uint64_t begin, uint64_t end) {
-    for (uint64_t i = begin; i < end; ++i) centers[i] = center(assembly, positions, atlas, atlas.charts[i]);
+  std::vector<ChartBox> boxes(atlas.charts.size());
+  parallel_for(boxes.size(), grain, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) boxes[i] = box_of(assembly, positions, atlas, atlas.charts[i]);
   });
-  return centers;
+  return boxes;
 }
 
 // Resamples the triangles that get no chart of their own; those that cannot be mapped get one.
@@ -158,9 +157,9 @@ Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, co
   chart_surface(scene, assembly, settings, atlas, on_stage);
   atlas.kind = kind_of(atlas.charts);
   if (on_stage) on_stage("order");
-  std::vector<glm::vec3> centers;
-  if (atlas.charts.size() > 1) centers = chart_centers(scene, assembly, atlas);
-  const uint64_t slots = assign_slots(atlas.charts, centers, order, scene.name);
+  std::vector<ChartBox> boxes;
+  if (atlas.charts.size() > 1) boxes = chart_boxes(scene, assembly, atlas);
+  const uint64_t slots = assign_slots(atlas.charts, boxes, order, scene.name);
   atlas.depth = tree_depth(slots);
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.texels = atlas.texel_map.size();

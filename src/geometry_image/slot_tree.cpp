@@ -3,17 +3,21 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace lodestone::geometry_image {
 namespace {
 
 class SlotTree {
  public:
-  SlotTree(const std::vector<uint64_t>& needed, const std::vector<glm::vec3>& centers)
-      : needed_(needed), centers_(centers), blocks_(needed.size()) {}
+  SlotTree(const std::vector<uint64_t>& needed, const std::vector<ChartBox>& boxes)
+      : needed_(needed), boxes_(boxes), blocks_(needed.size()) {
+    for (const ChartBox& box : boxes) centers_.push_back(box.center());
+  }
 
   std::vector<Block> run(uint64_t slots) {
     std::vector<uint32_t> all(needed_.size());
@@ -37,44 +41,72 @@ class SlotTree {
       return;
     }
     const uint64_t left = std::has_single_bit(slots) ? slots / 2 : std::bit_floor(slots);
-    sort_along_longest_axis(charts);
     const size_t count = split(charts, left, slots - left);
     fill(first, left, charts.first(count));
     fill(first + left, slots - left, charts.subspan(count));
   }
 
-  void sort_along_longest_axis(std::span<uint32_t> charts) const {
-    glm::vec3 lo = centers_[charts[0]], hi = lo;
-    for (const uint32_t chart : charts) {
-      lo = glm::min(lo, centers_[chart]);
-      hi = glm::max(hi, centers_[chart]);
-    }
-    const glm::vec3 size = hi - lo;
-    const glm::length_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  void sort_along(std::span<uint32_t> charts, glm::length_t axis) const {
     std::sort(charts.begin(), charts.end(), [&](uint32_t a, uint32_t b) {
       return std::tie(centers_[a][axis], a) < std::tie(centers_[b][axis], b);
     });
   }
 
-  // How many of the charts go left, each side getting its share as far as it can; reorders them where no
-  // place between them will do. A side of no power of 2 gets charts for each of the parts that it falls into.
+  struct Split {
+    size_t count = 0;  // on the left; 0: there is none
+    glm::length_t axis = 0;
+    double cost = std::numeric_limits<double>::infinity();
+  };
+
+  // Orders the charts so that the first ones go left, and returns how many.
   size_t split(std::span<uint32_t> charts, uint64_t left, uint64_t right) const {
-    const uint64_t all = sum(charts);
-    const size_t least_right = static_cast<size_t>(std::popcount(right));
-    const double wanted = double(all) * double(left) / double(left + right);
-    size_t best = 0;
-    double least = 0;
-    uint64_t before = 0;
-    for (size_t i = 1; i + least_right <= charts.size(); ++i) {
-      before += needed_[charts[i - 1]];
-      if (before > left || all - before > right) continue;
-      const double off = std::abs(double(before) - wanted);
-      if (best == 0 || off < least) {
-        best = i;
-        least = off;
+    Split best;
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+      sort_along(charts, axis);
+      const Split found = best_along(charts, axis, left, right);
+      if (found.cost < best.cost) best = found;
+    }
+    if (best.count == 0) return split_tightly(charts, left);
+    sort_along(charts, best.axis);
+    return best.count;
+  }
+
+  // Of the places between charts where both sides get no more than they hold. A side of no power of 2 gets a
+  // chart at least for each of the parts that it falls into.
+  Split best_along(std::span<const uint32_t> charts, glm::length_t axis, uint64_t left,
+                   uint64_t right) const {
+    const size_t count = charts.size(), least_right = static_cast<size_t>(std::popcount(right));
+    std::vector<double> cost_behind(count + 1, 0);
+    ChartBox box;
+    uint64_t slots = 0;
+    for (size_t i = count; i-- > 0;) {
+      slots += needed_[charts[i]];
+      box = i + 1 == count ? boxes_[charts[i]] : around(box, boxes_[charts[i]]);
+      cost_behind[i] = half_area(box) * double(slots);
+    }
+    const uint64_t all = slots;
+    Split best;
+    best.axis = axis;
+    slots = 0;
+    for (size_t i = 1; i + least_right <= count; ++i) {
+      slots += needed_[charts[i - 1]];
+      box = i == 1 ? boxes_[charts[0]] : around(box, boxes_[charts[i - 1]]);
+      if (slots > left || all - slots > right) continue;
+      const double cost = half_area(box) * double(slots) + cost_behind[i];
+      if (best.count == 0 || cost < best.cost) {
+        best.count = i;
+        best.cost = cost;
       }
     }
-    return best != 0 ? best : split_tightly(charts, left);
+    return best;
+  }
+
+  static ChartBox around(const ChartBox& a, const ChartBox& b) {
+    return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
+  }
+  static double half_area(const ChartBox& box) {
+    const glm::dvec3 size = glm::dvec3(box.hi) - glm::dvec3(box.lo);
+    return size.x * size.y + size.y * size.z + size.z * size.x;
   }
 
   // The largest first into the left side while they fit, those that lie first along the axis before others of
@@ -93,19 +125,19 @@ class SlotTree {
   }
 
   const std::vector<uint64_t>& needed_;
-  const std::vector<glm::vec3>& centers_;
+  const std::vector<ChartBox>& boxes_;
+  std::vector<glm::vec3> centers_;
   std::vector<Block> blocks_;
 };
 
 }  // namespace
 
-std::vector<Block> slots_by_place(const std::vector<uint64_t>& needed,
-                                  const std::vector<glm::vec3>& centers) {
+std::vector<Block> slots_by_place(const std::vector<uint64_t>& needed, const std::vector<ChartBox>& boxes) {
   const uint64_t all = std::accumulate(needed.begin(), needed.end(), uint64_t(0));
   // The tree is of four to eight such parts.
   const uint64_t part = std::bit_floor(all) / 4;
   if (needed.empty() || *std::max_element(needed.begin(), needed.end()) > part / 2) return {};
-  return SlotTree(needed, centers).run((all + part - 1) / part * part);
+  return SlotTree(needed, boxes).run((all + part - 1) / part * part);
 }
 
 }  // namespace lodestone::geometry_image

@@ -9,6 +9,12 @@
 
 namespace lodestone::geometry_image {
 
+struct ChartBox {
+  glm::vec3 lo{0}, hi{0};  // finite
+
+  glm::vec3 center() const { return 0.5f * lo + 0.5f * hi; }
+};
+
 struct Block {
   uint64_t first_slot = 0, slots = 0;  // a power of 2 of them, which the first is a multiple of
 };
@@ -18,6 +24,6 @@ struct Block {
 // are the slots that each chart fills, powers of 2; `centers` are finite. Empty where the largest chart is
 // more than an eighth of all, so that it would leave no choice. The result does not depend on the number of
 // threads.
-std::vector<Block> slots_by_place(const std::vector<uint64_t>& needed, const std::vector<glm::vec3>& centers);
+std::vector<Block> slots_by_place(const std::vector<uint64_t>& needed, const std::vector<ChartBox>& boxes);
 
 }  // namespace lodestone::geometry_image

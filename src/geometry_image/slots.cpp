@@ -22,14 +22,14 @@ uint64_t slots_of(const std::vector<layout::ChartRecord>& charts) {
 }
 
 // Mapped charts are of many sizes and lie anywhere. False where they have to be placed as all others.
-bool assign_by_place(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers) {
+bool assign_by_place(std::vector<layout::ChartRecord>& charts, const std::vector<ChartBox>& boxes) {
   const bool mapped = std::any_of(charts.begin(), charts.end(), [](const layout::ChartRecord& chart) {
     return chart.kind == layout::chart_mapped;
   });
-  if (!mapped || centers.empty()) return false;
+  if (!mapped || boxes.empty()) return false;
   std::vector<uint64_t> needed;
   for (const layout::ChartRecord& chart : charts) needed.push_back(QuadOrder::block_slots(chart));
-  const std::vector<Block> blocks = slots_by_place(needed, centers);
+  const std::vector<Block> blocks = slots_by_place(needed, boxes);
   for (size_t i = 0; i < blocks.size(); ++i) {
     charts[i].first_slot = static_cast<uint32_t>(blocks[i].first_slot);
     charts[i].slot_count = static_cast<uint32_t>(blocks[i].slots);
@@ -39,7 +39,7 @@ bool assign_by_place(std::vector<layout::ChartRecord>& charts, const std::vector
 
 }  // namespace
 
-uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers,
+uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<ChartBox>& boxes,
                       ChartOrder order, const std::string& subject) {
   const uint64_t slots = slots_of(charts);
   if (slots > slot_limit) {
@@ -48,7 +48,7 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
                "simplify them",
                slots, charts.size(), slot_limit);
   }
-  if (assign_by_place(charts, centers)) {
+  if (assign_by_place(charts, boxes)) {
     uint64_t end = 0;
     for (const layout::ChartRecord& chart : charts)
       end = std::max(end, uint64_t(chart.first_slot) + chart.slot_count);
@@ -59,7 +59,7 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
   for (uint32_t i = 0; i < charts.size(); ++i) {
     const auto bits = static_cast<size_t>(std::bit_width(QuadOrder::block_slots(charts[i])) - 1);
     (bits % 2 == 0 ? whole : halves)[(bits + 1) / 2].push_back(
-        {centers.empty() ? glm::vec3(0) : centers[i], i});
+        {boxes.empty() ? glm::vec3(0) : boxes[i].center(), i});
   }
   const auto pairs = static_cast<uint32_t>(charts.size());  // numbers from here on are pairs, not charts
   uint64_t next = 0;

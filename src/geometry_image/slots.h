@@ -8,17 +8,18 @@
 #include <vector>
 
 #include "lodestone/geometry_image/chart_order.h"
+#include "lodestone/geometry_image/slot_tree.h"
 #include "lodestone/layout/atlas.h"
 
 namespace lodestone::geometry_image {
 
-// Gives every chart its block: large nodes before small ones, so that each starts at a multiple of its size
-// without a gap; those of one size in the given order. Small mapped charts get larger blocks than they fill
-// where that is cheap. Charts of half a node are neighbours two by two, and
-// such a pair stands among the charts of its size; one that is left over comes behind those a size below.
-// `centers` has one a chart; it may be empty where there is only one chart. Returns the number of slots.
-// Throws Error(bad_input), naming `subject`, where they are more than the tree has.
-uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<glm::vec3>& centers,
+// Gives every chart its block. Where some are mapped, by place (slot_tree.h). Else large nodes before small
+// ones, so that each starts at a multiple of its size without a gap; those of one size in the given order.
+// Charts of half a node are neighbours two by two, and such a pair stands among the charts of its size; one
+// that is left over comes behind those a size below. `boxes` has one a chart; it may be empty where there is
+// only one chart. Returns the number of slots. Throws Error(bad_input), naming `subject`, where they are more
+// than the tree has.
+uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vector<ChartBox>& boxes,
                       ChartOrder order, const std::string& subject);
 
 // The leaves' level: the lowest d >= 1 with 4^d >= slots.

@@ -92,8 +92,9 @@ ReadyScene straddled_squares(const Straddled& options) {
                                                   : geometry_image::texel_entry(charts[i], i, x, y));
     }
   }
-  const uint64_t slots = geometry_image::assign_slots(charts, std::vector<glm::vec3>(charts.size()),
-                                                      geometry_image::ChartOrder::median, ready.scene.name);
+  const uint64_t slots =
+      geometry_image::assign_slots(charts, std::vector<geometry_image::ChartBox>(charts.size()),
+                                   geometry_image::ChartOrder::median, ready.scene.name);
   atlas.kind = geometry_image::kind_of(charts);
   atlas.depth = geometry_image::tree_depth(slots);
   atlas.leaf_map = geometry_image::make_leaf_map(charts, slots);

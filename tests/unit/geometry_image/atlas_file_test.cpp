@@ -177,7 +177,10 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
   refuse([](Atlas& a) { a.charts[2].first_triangle = 15; }, "triangles that do not exist");
   refuse([](Atlas& a) { a.report.triangles = 13; }, "triangles that do not exist");
   refuse([](Atlas& a) { a.charts[1].first_slot += 1; }, "block is not its own");
-  refuse([](Atlas& a) { a.charts[1].slot_count = 16; }, "block is not its own");
+  refuse([](Atlas& a) { a.charts[1].slot_count = 2; }, "block is not its own");
+  refuse([](Atlas& a) { a.charts[1].slot_count = 5; }, "block is not its own");
+  refuse([](Atlas& a) { a.charts[1].slot_count = 0; }, "block is not its own");
+  refuse([](Atlas& a) { a.charts[1].slot_count = 16; }, "leaves of no chart");
   refuse([](Atlas& a) { a.charts[1].first_slot = 1u << 30; }, "outside the hierarchy");
   refuse([](Atlas& a) { a.charts[1].first_slot = a.charts[2].first_slot; }, "a leaf that is not");
   refuse([](Atlas& a) { a.texel_map[3].x = 12; }, "samples nothing");

@@ -34,7 +34,7 @@ inline Atlas sample_atlas() {
   atlas.kind = kind_of(atlas.charts);
   atlas.texel_map = make_texel_map(atlas.charts);
   const uint64_t slots =
-      assign_slots(atlas.charts, std::vector<glm::vec3>(atlas.charts.size()), ChartOrder::median, scene.name);
+      assign_slots(atlas.charts, std::vector<ChartBox>(atlas.charts.size()), ChartOrder::median, scene.name);
   atlas.depth = tree_depth(slots);
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.quads = quad_count(atlas.charts[0]) + 2 * 3;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <random>
 #include <set>
 
 #include "expect_error.h"
@@ -110,37 +111,88 @@ layout::ChartRecord mapped_chart(uint32_t width, uint32_t height) {
   return chart;
 }
 
-TEST(Slots, GiveSmallMappedChartsMoreThanTheyFillWhereThatIsCheap) {
-  std::vector<layout::ChartRecord> charts(40, mapped_chart(16, 16));
-  charts.resize(46, mapped_chart(2, 2));
-  charts.push_back(grid_chart(2, 2));
-  const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
-  const uint64_t slots = assign_slots(charts, centers, ChartOrder::median, "test");
-  EXPECT_EQ(charts[40].slot_count, 256u);
-  EXPECT_EQ(charts[46].slot_count, 4u) << "a grid keeps its own block";
-  EXPECT_EQ(slots, 46u * 256u + 4u);
+// Every slot is one chart's, blocks stand at multiples of their size, and each holds its chart's quads once.
+void expect_whole(const std::vector<layout::ChartRecord>& charts, uint64_t slots) {
+  std::vector<bool> taken(slots, false);
   for (const layout::ChartRecord& chart : charts) {
+    EXPECT_GE(chart.slot_count, QuadOrder::block_slots(chart));
+    EXPECT_TRUE(std::has_single_bit(chart.slot_count));
+    EXPECT_EQ(chart.first_slot % chart.slot_count, 0u);
+    ASSERT_LE(chart.first_slot + chart.slot_count, slots);
     uint32_t quads = 0;
-    for (uint32_t s = 0; s < chart.slot_count; ++s)
+    for (uint32_t s = 0; s < chart.slot_count; ++s) {
+      EXPECT_FALSE(taken[chart.first_slot + s]);
+      taken[chart.first_slot + s] = true;
       quads += leaf_entry(chart, s).x == layout::empty_slot ? 0 : 1;
-    EXPECT_EQ(quads, (chart.width - 1) * (chart.height - 1)) << "once each, and nothing behind them";
+    }
+    EXPECT_EQ(quads, (chart.width - 1) * (chart.height - 1));
+  }
+  EXPECT_EQ(std::count(taken.begin(), taken.end(), false), 0);
+}
+
+TEST(Slots, OfMappedChartsAreAllTakenAndHardlyMoreThanTheyNeed) {
+  std::mt19937 random(1);
+  for (uint32_t round = 0; round < 60; ++round) {
+    std::vector<layout::ChartRecord> charts;
+    std::vector<ChartBox> boxes;
+    uint64_t needed = 0;
+    const uint32_t largest = 1 + round % 40;
+    for (uint32_t i = 0; i < 9 + 7 * round; ++i) {
+      charts.push_back(mapped_chart(1 + random() % largest, 1 + random() % largest));
+      needed += QuadOrder::block_slots(charts.back());
+      // Many at one place, too.
+      const glm::vec3 at(random() % 5, random() % (1 + round), random() % 3);
+      boxes.push_back({at, at + glm::vec3(random() % 2)});
+    }
+    const uint64_t slots = assign_slots(charts, boxes, ChartOrder::median, "test");
+    SCOPED_TRACE(round);
+    expect_whole(charts, slots);
+    EXPECT_LE(double(slots), 1.25 * double(needed));
+    EXPECT_EQ(tree_depth(slots), tree_depth(needed));
   }
 }
 
-TEST(Slots, GiveSmallMappedChartsNoMoreWhereThereAreMany) {
-  std::vector<layout::ChartRecord> charts(10, mapped_chart(16, 16));
-  charts.resize(1000, mapped_chart(2, 2));
-  const uint64_t slots =
-      assign_slots(charts, std::vector<glm::vec3>(charts.size(), glm::vec3(0)), ChartOrder::median, "test");
-  EXPECT_EQ(slots, 10u * 256u + 990u * 4u);
+TEST(Slots, OfMappedChartsAreNearInTheTreeWhereTheyAreInSpace) {
+  // A row of places, with a large, a middling and three small charts each, given in no order.
+  std::vector<layout::ChartRecord> charts;
+  std::vector<ChartBox> boxes;
+  std::vector<uint32_t> places;
+  for (uint32_t i = 0; i < 16 * 5; ++i) {
+    const uint32_t place = (7 * i) % 16, kind = i / 16;
+    charts.push_back(kind == 0 ? mapped_chart(8, 8) : kind == 1 ? mapped_chart(8, 4) : mapped_chart(3, 3));
+    const glm::vec3 at(10.0f * float(place), 0.1f * float(kind), 0);
+    boxes.push_back({at, at + 1.0f});
+    places.push_back(place);
+  }
+  const uint64_t slots = assign_slots(charts, boxes, ChartOrder::median, "test");
+  expect_whole(charts, slots);
+  // Sorted by size each place would be all over the tree.
+  double span = 0;
+  for (uint32_t place = 0; place < 16; ++place) {
+    uint64_t first = slots, last = 0;
+    for (size_t i = 0; i < charts.size(); ++i) {
+      if (places[i] != place) continue;
+      first = std::min<uint64_t>(first, charts[i].first_slot);
+      last = std::max<uint64_t>(last, charts[i].first_slot);
+    }
+    span += double(last - first) / double(slots) / 16;
+  }
+  EXPECT_LT(span, 0.2);
+}
+
+TEST(Slots, OfMappedChartsBesideAVeryLargeOneAreAsThoseOfOthers) {
+  std::vector<layout::ChartRecord> charts = {mapped_chart(2, 2), mapped_chart(64, 64), mapped_chart(4, 4)};
+  const uint64_t slots = assign_slots(charts, std::vector<ChartBox>(3), ChartOrder::median, "test");
+  expect_whole(charts, slots);
+  EXPECT_EQ(slots, 64u * 64 + 16 + 4);
 }
 
 TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
   for (uint32_t count = 1; count < 60; ++count) {
     std::vector<layout::ChartRecord> charts;
     for (uint32_t i = 0; i < count; ++i) charts.push_back(grid_chart(1 + (i * 7) % 13, 1 + (i * 5) % 9));
-    const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
-    const uint64_t slots = assign_slots(charts, centers, ChartOrder::median, "test");
+    const std::vector<ChartBox> boxes(charts.size());
+    const uint64_t slots = assign_slots(charts, boxes, ChartOrder::median, "test");
     std::vector<bool> taken(slots, false);
     for (const layout::ChartRecord& chart : charts) {
       EXPECT_EQ(chart.slot_count, QuadOrder::block_slots(chart));
@@ -162,12 +214,13 @@ TEST(Slots, PutLargeBlocksFirstAndLeaveNoGap) {
 TEST(Slots, LetNeighboursShareANodeWhereTheyAreHalfOfOne) {
   // Three pairs far from each other and from the squares, one of which is beside each pair.
   std::vector<layout::ChartRecord> charts;
-  std::vector<glm::vec3> centers;
+  std::vector<ChartBox> boxes;
   for (uint32_t i = 0; i < 9; ++i) {
     charts.push_back(i < 6 ? grid_chart(i % 2 == 0 ? 8 : 4, i % 2 == 0 ? 4 : 8) : grid_chart(8, 8));
-    centers.emplace_back(100.0f * float(i % 3), float(i), 0);
+    const glm::vec3 at(100.0f * float(i % 3), float(i), 0);
+    boxes.push_back({at, at});
   }
-  EXPECT_EQ(assign_slots(charts, centers, ChartOrder::median, "test"), 6 * 32 + 3 * 64u);
+  EXPECT_EQ(assign_slots(charts, boxes, ChartOrder::median, "test"), 6 * 32 + 3 * 64u);
   for (uint32_t i = 0; i < 3; ++i) {
     EXPECT_EQ(charts[i].first_slot / 64, charts[i + 3].first_slot / 64);
     EXPECT_NE(charts[i].first_slot, charts[i + 3].first_slot);
@@ -182,8 +235,8 @@ TEST(Slots, PutTheHalfNodeThatIsLeftOverBehindAnEvenNumberOfThoseASizeBelow) {
     std::vector<layout::ChartRecord> charts = {grid_chart(4, 4), grid_chart(4, 2), grid_chart(2, 4),
                                                grid_chart(2, 4), grid_chart(1, 1)};
     charts.insert(charts.end(), below, grid_chart(2, 2));
-    const std::vector<glm::vec3> centers(charts.size(), glm::vec3(0));
-    EXPECT_EQ(assign_slots(charts, centers, ChartOrder::median, "test"), 16 + 3 * 8 + 4 * below + 1u);
+    const std::vector<ChartBox> boxes(charts.size());
+    EXPECT_EQ(assign_slots(charts, boxes, ChartOrder::median, "test"), 16 + 3 * 8 + 4 * below + 1u);
     EXPECT_EQ(charts[3].first_slot, 32 + below / 2 * 8u);
     EXPECT_EQ(charts[4].first_slot, 40 + 4 * below);
   }
@@ -196,7 +249,8 @@ TEST(Slots, EndWhereTheDeepestTreeEnds) {
   charts.push_back(grid_chart(1, 1));
   expect_error(
       [&] {
-        assign_slots(charts, {glm::vec3(0), glm::vec3(1)}, ChartOrder::median, "test");
+        assign_slots(charts, {{glm::vec3(0), glm::vec3(0)}, {glm::vec3(1), glm::vec3(1)}}, ChartOrder::median,
+                     "test");
       },
       ExitCode::bad_input, "test", "268435457 leaf slots for 2 charts, and 268435456 is the most");
   charts = {grid_chart((1u << 14) + 1, 4)};
