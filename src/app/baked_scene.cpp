@@ -49,6 +49,8 @@ BakedScene::BakedScene(const SceneOptions& options) : file_(options.scene) {
   }
   geometry_image::AtlasSettings asked = options.atlas;
   asked.charts.keep_maps = false;  // a file that has them serves both
+  // What it is may be asked for by name, whatever it was asked for as.
+  if (asked.kind == atlas_.kind && asked.charts == geometry_image::ChartSettings{}) asked = {};
   if (asked != geometry_image::AtlasSettings{}) asked.charts.keep_maps = record_.asked.charts.keep_maps;
   if (asked != geometry_image::AtlasSettings{} && asked != record_.asked)
     fail(ExitCode::usage, "--atlas", "`{}` was baked with another one; leave the option out or bake it again",

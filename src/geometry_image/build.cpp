@@ -103,6 +103,11 @@ MappedCharts map_surfaces(const scene::Scene& scene, const scene::Assembly& asse
   report.repeated_texels = mapped.repeated_texels;
   report.mean_stretch = mapped.mean_stretch;
   report.high_stretch = mapped.high_stretch;
+  if (settings.charts.texel_budget != 0 && mapped.texels.size() > settings.charts.texel_budget) {
+    report.notes.push_back(fmt::format("{} texels were asked for, but its {} charts need {} at least.",
+                                       settings.charts.texel_budget, mapped.charts.size(),
+                                       mapped.texels.size()));
+  }
   if (!mapped.left_out.empty()) {
     report.notes.push_back(fmt::format(
         "{} triangles are not resampled and get a chart each: surfaces that fall apart into pieces of "

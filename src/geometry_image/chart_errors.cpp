@@ -30,7 +30,8 @@ template <class Check>
 void for_samples(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double apart, Check check) {
   constexpr double most = 8;  // halves of them an edge
   const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-  const int steps = 2 * static_cast<int>(std::clamp(std::ceil(0.5 * longest / apart), 1.0, most));
+  const int steps =
+      longest > 2 * apart ? 2 * static_cast<int>(std::min(std::ceil(0.5 * longest / apart), most)) : 2;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
       const bool corner = i == steps || j == steps || i + j == 0;

@@ -38,12 +38,13 @@ class ObjParser {
       parse_line();
     } while (reader_.next_line());
     if (small_faces_ > 0) {
-      log::warn(
-          fmt::format("{}: {} faces of fewer than 3 corners are left out", reader_.file(), small_faces_));
+      log::warn(fmt::format("{}: faces of fewer than 3 corners are left out: {}, the first in line {}",
+                            reader_.file(), small_faces_, first_small_line_));
     }
     if (mesh_.triangles.empty()) {
       if (positions_.empty()) fail_input(reader_.file(), "holds no vertex (v): is it an OBJ file at all?");
-      fail_input(reader_.file(), "has no faces; export the file as a polygon mesh");
+      fail_input(reader_.file(),
+                 "has no faces; export it as a polygon mesh, or get it whole if it was cut off");
     }
     build_vertices();
   }
@@ -132,7 +133,10 @@ class ObjParser {
       if (corners >= 2) add_triangle({first, previous, current});
       previous = current;
     }
-    if (corners < 3) ++small_faces_;
+    if (corners >= 3) return;
+    if (reader_.at_end()) reader_.fail("the file ends in the middle of a face: it was cut off; get it whole");
+    ++small_faces_;
+    if (first_small_line_ == 0) first_small_line_ = reader_.line();
   }
 
   void add_triangle(const glm::uvec3& triangle) {
@@ -238,7 +242,7 @@ class ObjParser {
   FirstUse<3> corners_;                 // the mesh's vertices
   std::vector<uint64_t> corner_lines_;  // where each is first used
   uint32_t material_ = none;
-  uint64_t small_faces_ = 0;
+  uint64_t small_faces_ = 0, first_small_line_ = 0;
 };
 
 }  // namespace

@@ -394,6 +394,14 @@ TEST(MappedCharts, OfATriangleOrTwoInAPlaneAreAllOfThem) {
   }
 }
 
+TEST(MappedCharts, SayWhereTheyNeedMoreTexelsThanWereAskedFor) {
+  const Made few(cube(), settings_of(4)), enough(cube(), settings_of(1000));
+  ASSERT_EQ(few.atlas.report.notes.size(), 1u);
+  EXPECT_NE(few.atlas.report.notes[0].find("4 texels were asked for, but its 6 charts need"),
+            std::string::npos);
+  EXPECT_TRUE(enough.atlas.report.notes.empty());
+}
+
 // A road from under the camera to far away.
 scene::Scene road_with_camera() {
   scene::Scene scene = test::scene_of({mesh_from(shapes::plane(200, 8))});

@@ -44,6 +44,8 @@ const std::vector<Malformed> files{
     {"ObjEmpty", ".obj", "", "holds no vertex"},
     {"ObjOfBytes", ".obj", nul + "\xff\xfe\x01", "holds no vertex"},
     {"ObjWithoutFaces", ".obj", vertices3, "has no faces"},
+    {"ObjCutOffInAFace", ".obj", vertices3 + "f 1 2 3\nf 1 2",
+     "line 5: the file ends in the middle of a face"},
     {"ObjCoordinateMissing", ".obj", vertices3 + "v 1 2\nf 1 2 3\n", "line 4: a coordinate of v is missing"},
     {"ObjNan", ".obj", "v 0 nan 0\nf 1 1 1\n", "line 1: a coordinate of v `nan` is not a finite number"},
     {"ObjInfinity", ".obj", "v 0 0 -inf\n", "line 1: a coordinate of v `-inf` is not a finite number"},
