@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/test_support/bench_main.h"
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
 #include "lodestone/base/error.h"
 
 namespace lodestone::test {
