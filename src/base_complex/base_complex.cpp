@@ -82,9 +82,7 @@ double distance_to(const HalfEdgeMesh& mesh, const Arc& arc, const glm::dvec3& p
 }
 
 void find_room(BaseComplex& complex) {
-  std::vector<std::vector<uint32_t>> cells(complex.arcs.size());  // beside each arc
-  for (uint32_t c = 0; c < complex.cells.size(); ++c)
-    for (const Passage& passage : complex.cells[c].boundary) cells[passage.arc].push_back(c);
+  const std::vector<std::vector<uint32_t>> cells = cells_beside_arcs(complex);
   parallel_for(complex.arcs.size(), 1, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
       Arc& arc = complex.arcs[i];
@@ -117,6 +115,13 @@ std::vector<glm::dvec3> point_normals(const HalfEdgeMesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<std::vector<uint32_t>> cells_beside_arcs(const BaseComplex& complex) {
+  std::vector<std::vector<uint32_t>> cells(complex.arcs.size());
+  for (uint32_t c = 0; c < complex.cells.size(); ++c)
+    for (const Passage& passage : complex.cells[c].boundary) cells[passage.arc].push_back(c);
+  return cells;
+}
 
 std::array<Side, 4> sides_of(const BaseComplex& complex, const Cell& cell) {
   std::array<Side, 4> sides;

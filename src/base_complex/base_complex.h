@@ -54,6 +54,9 @@ inline uint32_t next_on_boundary(const BaseComplex& complex, uint32_t half_edge)
   return next_on_boundary(complex.mesh, complex.cell_of_face, half_edge);
 }
 
+// Of each arc the cells beside it, ascending; a cell that passes it twice is there twice.
+std::vector<std::vector<uint32_t>> cells_beside_arcs(const BaseComplex& complex);
+
 // A side of a cell's rectangle, from one corner to the next.
 struct Side {
   size_t first = 0, end = 0;  // of Cell::boundary

@@ -150,7 +150,7 @@ class CornerChoice {
     sum += across * across + along * along;
     const double aspect = std::log((sides[0] + sides[2]) / (sides[1] + sides[3]));
     sum += of_shape * aspect * aspect;
-    // A side has a segment for each of its arcs at least, and so has the one opposite.
+    // A side has a segment for each of its arcs at least, and so has the one opposite: counted in doublings.
     size_t arcs[4];
     for (size_t i = 0; i < 4; ++i) arcs[i] = arcs_between(corners[i], corners[(i + 1) % 4]);
     sum += of_doubling * double(std::bit_width(std::max(arcs[0], arcs[2]) - 1) +

@@ -10,10 +10,7 @@ namespace {
 
 class Dual {
  public:
-  explicit Dual(const BaseComplex& complex) : complex_(complex), beside_(complex.arcs.size()) {
-    for (uint32_t c = 0; c < complex.cells.size(); ++c)
-      for (const Passage& passage : complex.cells[c].boundary) beside_[passage.arc].push_back(c);
-  }
+  explicit Dual(const BaseComplex& complex) : complex_(complex), beside_(cells_beside_arcs(complex)) {}
 
   std::vector<uint32_t> run() {
     for (uint32_t c = 0; c < complex_.cells.size(); ++c) find_double_edges(c);

@@ -65,9 +65,7 @@ ChartErrors::ChartErrors(const base_complex::BaseComplex& complex, const mesh::S
     triangles_[chart].push_back(triangle);
   }
   for (std::vector<uint32_t>& list : triangles_) sort_out(list);
-  std::vector<std::vector<uint32_t>> beside(complex.arcs.size());
-  for (uint32_t c = 0; c < complex.cells.size(); ++c)
-    for (const base_complex::Passage& passage : complex.cells[c].boundary) beside[passage.arc].push_back(c);
+  const std::vector<std::vector<uint32_t>> beside = cells_beside_arcs(complex);
   for (uint32_t c = 0; c < complex.cells.size(); ++c) {
     neighbours_[c].push_back(c);
     for (const base_complex::Passage& passage : complex.cells[c].boundary)

@@ -27,12 +27,6 @@ class SlotTree {
   }
 
  private:
-  uint64_t sum(std::span<const uint32_t> charts) const {
-    uint64_t slots = 0;
-    for (const uint32_t chart : charts) slots += needed_[chart];
-    return slots;
-  }
-
   // Shares slots from `first` on among charts that fit. Of no power of 2 the larger part comes first, which
   // is one; of a power of 2 both halves are.
   void fill(uint64_t first, uint64_t slots, std::span<uint32_t> charts) {

@@ -20,10 +20,10 @@ struct Block {
 };
 
 // One block for each chart, together all slots from 0 on without a gap: at most a quarter more than the
-// charts need, and the tree not deeper. A chart that is alone in a part of the tree gets all of it. `needed`
-// are the slots that each chart fills, powers of 2; `centers` are finite. Empty where the largest chart is
-// more than an eighth of all, so that it would leave no choice. The result does not depend on the number of
-// threads.
+// charts need, and the tree not deeper. Parts of the tree are split where that makes boxes and slots least
+// (the surface area heuristic), among the splits that powers of 2 allow; a chart that is alone in a part gets
+// all of it. `needed` are the slots that each chart fills, powers of 2. Empty where the largest chart is more
+// than an eighth of all, so that it would leave no choice.
 std::vector<Block> slots_by_place(const std::vector<uint64_t>& needed, const std::vector<ChartBox>& boxes);
 
 }  // namespace lodestone::geometry_image

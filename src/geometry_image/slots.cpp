@@ -21,20 +21,23 @@ uint64_t slots_of(const std::vector<layout::ChartRecord>& charts) {
   return slots;
 }
 
-// Mapped charts are of many sizes and lie anywhere. False where they have to be placed as all others.
-bool assign_by_place(std::vector<layout::ChartRecord>& charts, const std::vector<ChartBox>& boxes) {
+// Mapped charts are of many sizes and lie anywhere. Returns the number of slots; 0 where charts have to be
+// placed by size.
+uint64_t assign_by_place(std::vector<layout::ChartRecord>& charts, const std::vector<ChartBox>& boxes) {
   const bool mapped = std::any_of(charts.begin(), charts.end(), [](const layout::ChartRecord& chart) {
     return chart.kind == layout::chart_mapped;
   });
-  if (!mapped || boxes.empty()) return false;
+  if (!mapped || boxes.empty()) return 0;
   std::vector<uint64_t> needed;
   for (const layout::ChartRecord& chart : charts) needed.push_back(QuadOrder::block_slots(chart));
   const std::vector<Block> blocks = slots_by_place(needed, boxes);
+  uint64_t slots = 0;
   for (size_t i = 0; i < blocks.size(); ++i) {
     charts[i].first_slot = static_cast<uint32_t>(blocks[i].first_slot);
     charts[i].slot_count = static_cast<uint32_t>(blocks[i].slots);
+    slots += blocks[i].slots;
   }
-  return !blocks.empty();
+  return slots;
 }
 
 }  // namespace
@@ -48,12 +51,7 @@ uint64_t assign_slots(std::vector<layout::ChartRecord>& charts, const std::vecto
                "simplify them",
                slots, charts.size(), slot_limit);
   }
-  if (assign_by_place(charts, boxes)) {
-    uint64_t end = 0;
-    for (const layout::ChartRecord& chart : charts)
-      end = std::max(end, uint64_t(chart.first_slot) + chart.slot_count);
-    return end;
-  }
+  if (const uint64_t by_place = assign_by_place(charts, boxes); by_place != 0) return by_place;
   // Nodes of 4^k slots, by k: charts that fill one, and charts of which two do.
   std::array<std::vector<ChartCenter>, layout::max_depth + 1> whole, halves;
   for (uint32_t i = 0; i < charts.size(); ++i) {
