@@ -16,15 +16,10 @@ class RelaxBegin : public Kernel<Probe> {
     const glm::uvec4 source = this->load(texel_map_, texel);
     this->store(relaxed_map_, texel, source);
     if (source.w == 0) return;
-    const glm::uvec4 chart = this->load(charts_, 2 * uint64_t(source.w - 1));
-    if (chart.w != layout::chart_mapped) return;
-    const uint32_t x = (texel - chart.x) % chart.y, y = (texel - chart.x) / chart.y;
     const glm::uvec4 triangle = this->load(triangles_, source.x);
     const glm::vec3 now = texel_point(*this, positions_, triangle, source),
                     was = texel_point(*this, rest_positions_, triangle, source);
-    this->store(sites_, texel,
-                {layout::floatBitsToUint(float(x)), layout::floatBitsToUint(float(y)),
-                 this->load(face_of_texel_, texel), layout::floatBitsToUint(1.0f)});
+    this->store(sites_, texel, this->load(map_sites_, texel));
     this->store(now_, texel, as_bits(now, 0));
     this->store(was_, texel, as_bits(was, 0));
   }
@@ -32,9 +27,8 @@ class RelaxBegin : public Kernel<Probe> {
 
  private:
   Quads texel_map_ = this->quads(0), triangles_ = this->quads(1), positions_ = this->quads(2),
-        charts_ = this->quads(3), rest_positions_ = this->quads(4);
-  Words face_of_texel_ = this->words(5);
-  Quads relaxed_map_ = this->quads(6), sites_ = this->quads(7), now_ = this->quads(8), was_ = this->quads(9);
+        rest_positions_ = this->quads(3), map_sites_ = this->quads(4);
+  Quads relaxed_map_ = this->quads(5), sites_ = this->quads(6), now_ = this->quads(7), was_ = this->quads(8);
 };
 
 LODESTONE_BLOCK_FUNCTION(static, relax_begin, RelaxBegin)

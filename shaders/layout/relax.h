@@ -11,8 +11,8 @@
 // Buffers. Map faces, two quads each: { three points, counterclockwise; triangle of the scene }, { the face
 // behind the edge from corner k to the next, no_index: none; the piece }. Map points: two words each. Map
 // pieces: six words each. Sites, a quad buffer, one a texel: { u, v in the rectangle, the map face there
-// (no_index on the border of a chart, where texels stay), weight }. Now and was, quad buffers: the texel's
-// point in this pose and in the rest pose.
+// (no_index on the border of a chart, where texels stay), weight }; map sites: the same before any sweep. Now
+// and was, quad buffers: the texel's point in this pose and in the rest pose.
 #ifndef LODESTONE_LAYOUT_RELAX_H
 #define LODESTONE_LAYOUT_RELAX_H
 
@@ -30,6 +30,13 @@ struct MapFace {
 // Barycentrics of the triangle's vertices 1 and 2 at the corners of a face that is a piece of it.
 struct MapPiece {
   vec2 corners[3];
+};
+
+// Where a texel is before relaxation.
+struct MapSite {
+  vec2 at;       // in the rectangle
+  uint face;     // no_index: the texel stays
+  float weight;  // 1
 };
 
 struct RelaxPush {

@@ -24,7 +24,7 @@ namespace lodestone::geometry_image {
 namespace {
 
 constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
-constexpr uint32_t version = 5;
+constexpr uint32_t version = 6;
 constexpr uint32_t content_atlas = 1;
 constexpr size_t checksum_digits = 32;
 
@@ -154,7 +154,7 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   writer.number(static_cast<uint64_t>(atlas.maps.faces.size()));
   writer.number(static_cast<uint64_t>(atlas.maps.points.size()));
   writer.number(static_cast<uint64_t>(atlas.maps.pieces.size()));
-  writer.number(static_cast<uint64_t>(atlas.maps.face_of_texel.size()));
+  writer.number(static_cast<uint64_t>(atlas.maps.sites.size()));
   for (uint64_t AtlasReport::*field : report_numbers) writer.number(atlas.report.*field);
   for (double AtlasReport::*field : report_stretches) writer.number(atlas.report.*field);
   writer.number(static_cast<uint32_t>(atlas.report.notes.size()));
@@ -165,7 +165,7 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   pack_rows(atlas.maps.faces, writer);
   pack_rows(atlas.maps.points, writer);
   pack_rows(atlas.maps.pieces, writer);
-  pack_rows(atlas.maps.face_of_texel, writer);
+  pack_rows(atlas.maps.sites, writer);
   const std::string sum = checksum(writer.written());
   writer.bytes(std::as_bytes(std::span(sum)));
   return writer.take();
@@ -191,7 +191,7 @@ Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, Ba
   atlas.maps.faces = unpack_rows<layout::MapFace>(reader, map_faces);
   atlas.maps.points = unpack_rows<glm::vec2>(reader, map_points);
   atlas.maps.pieces = unpack_rows<layout::MapPiece>(reader, map_pieces);
-  atlas.maps.face_of_texel = unpack_rows<uint32_t>(reader, map_texels);
+  atlas.maps.sites = unpack_rows<layout::MapSite>(reader, map_texels);
   if (!reader.at_end()) reader.fail("it goes on behind its end");
   const std::string fault = find_fault(atlas);
   if (!fault.empty()) reader.fail(("it has " + fault).c_str());

@@ -140,7 +140,7 @@ void chart_surface(const scene::Scene& scene, const scene::Assembly& assembly, c
   for (const glm::uvec4& texel : mapped.texels)
     atlas.texel_map.push_back(texel + glm::uvec4(0, 0, 0, first_chart));
   if (!mapped.maps.empty()) {
-    atlas.maps.face_of_texel.assign(first_texel, layout::no_index);
+    atlas.maps.sites.assign(first_texel, {glm::vec2(0), layout::no_index, 1});
     atlas.maps.append(mapped.maps);
   }
   if (atlas.charts.empty()) {

@@ -9,6 +9,10 @@ namespace {
 // Sides of a chart are far shorter.
 constexpr float largest_coordinate = 65536;
 
+bool is_in_rectangle(const glm::vec2& at) {
+  return at.x >= 0 && at.y >= 0 && at.x <= largest_coordinate && at.y <= largest_coordinate;
+}
+
 template <class Visit>
 void for_each_inner(const layout::ChartRecord& chart, Visit visit) {
   if (chart.kind != layout::chart_mapped) return;
@@ -47,7 +51,7 @@ bool is_good_piece(const layout::MapPiece& piece) {
 
 uint64_t ChartMaps::bytes() const {
   return faces.size() * sizeof(layout::MapFace) + points.size() * sizeof(glm::vec2) +
-         pieces.size() * sizeof(layout::MapPiece) + face_of_texel.size() * sizeof(uint32_t);
+         pieces.size() * sizeof(layout::MapPiece) + sites.size() * sizeof(layout::MapSite);
 }
 
 void ChartMaps::append(const ChartMaps& more) {
@@ -64,8 +68,10 @@ void ChartMaps::append(const ChartMaps& more) {
   }
   points.insert(points.end(), more.points.begin(), more.points.end());
   pieces.insert(pieces.end(), more.pieces.begin(), more.pieces.end());
-  for (const uint32_t face : more.face_of_texel)
-    face_of_texel.push_back(face == layout::no_index ? face : face + first_face);
+  for (layout::MapSite site : more.sites) {
+    if (site.face != layout::no_index) site.face += first_face;
+    sites.push_back(site);
+  }
 }
 
 InnerTexels inner_texels(const std::vector<layout::ChartRecord>& charts) {
@@ -87,11 +93,11 @@ std::string find_fault(const ChartMaps& maps, const std::vector<layout::ChartRec
     const bool none = maps.faces.empty() && maps.points.empty() && maps.pieces.empty();
     return none ? "" : "maps of no texel";
   }
-  if (maps.face_of_texel.size() != texel_map.size()) return "maps of another number of texels";
-  for (const glm::vec2& point : maps.points) {
-    if (!(point.x >= 0 && point.y >= 0 && point.x <= largest_coordinate && point.y <= largest_coordinate))
-      return "a map with a point outside its rectangle";
-  }
+  if (maps.sites.size() != texel_map.size()) return "maps of another number of texels";
+  for (const glm::vec2& point : maps.points)
+    if (!is_in_rectangle(point)) return "a map with a point outside its rectangle";
+  for (const layout::MapSite& site : maps.sites)
+    if (!is_in_rectangle(site.at) || site.weight != 1) return "a texel outside its rectangle";
   for (const layout::MapPiece& piece : maps.pieces)
     if (!is_good_piece(piece)) return "a map with a piece outside its triangle";
   for (uint32_t f = 0; f < maps.faces.size(); ++f)
@@ -101,11 +107,11 @@ std::string find_fault(const ChartMaps& maps, const std::vector<layout::ChartRec
   for (const layout::ChartRecord& chart : charts) {
     for_each_inner(chart, [&](uint32_t, uint32_t, uint32_t texel) {
       ++inner;
-      const uint32_t face = maps.face_of_texel[texel];
+      const uint32_t face = maps.sites[texel].face;
       good = good && face < maps.faces.size() && maps.faces[face].triangle == texel_map[texel].x;
     });
   }
-  for (const uint32_t face : maps.face_of_texel) with_face += face == layout::no_index ? 0 : 1;
+  for (const layout::MapSite& site : maps.sites) with_face += site.face == layout::no_index ? 0 : 1;
   return good && with_face == inner ? "" : "a texel in no face of its map";
 }
 

@@ -18,11 +18,11 @@ struct ChartMaps {
   std::vector<layout::MapFace> faces;    // of all charts
   std::vector<glm::vec2> points;         // in the rectangle of their chart, whose unit is a quad
   std::vector<layout::MapPiece> pieces;  // of faces that are not a whole triangle
-  // One a texel of the atlas: the face that an inner texel of a mapped chart lies in; layout::no_index for
-  // all others.
-  std::vector<uint32_t> face_of_texel;
+  // One a texel of the atlas. Only inner texels of mapped charts have a face; those of other charts have no
+  // place either.
+  std::vector<layout::MapSite> sites;
 
-  bool empty() const { return face_of_texel.empty(); }
+  bool empty() const { return sites.empty(); }
   uint64_t bytes() const;
   // Appends those of further charts, whose texels follow.
   void append(const ChartMaps& more);

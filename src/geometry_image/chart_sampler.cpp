@@ -14,34 +14,7 @@ using base_complex::Arc;
 using base_complex::CellMap;
 using base_complex::next;
 using base_complex::Passage;
-
-std::vector<FacePoint> find_lattice(const CellMap& map, uint32_t columns, uint32_t rows, double spacing) {
-  constexpr double slack = 1e-6;
-  std::vector<FacePoint> points(size_t(columns) * rows);
-  std::vector<double> inside(points.size(), -std::numeric_limits<double>::infinity());
-  for (uint32_t f = 0; f < map.faces.size(); ++f) {
-    const glm::dvec2 a = map.at[map.faces[f][0]] / spacing, b = map.at[map.faces[f][1]] / spacing,
-                     c = map.at[map.faces[f][2]] / spacing;
-    const glm::dvec2 lo = glm::max(glm::min(a, glm::min(b, c)) - slack, 0.0);
-    const glm::dvec2 hi = glm::max(a, glm::max(b, c)) + slack;
-    const double det = base_complex::cross(b - a, c - a);
-    if (!(det > 0)) continue;
-    for (auto y = static_cast<uint32_t>(std::ceil(lo.y)); y < rows && y <= hi.y; ++y) {
-      for (auto x = static_cast<uint32_t>(std::ceil(lo.x)); x < columns && x <= hi.x; ++x) {
-        const glm::dvec2 p(x, y);
-        const double b1 = base_complex::cross(p - a, c - a) / det,
-                     b2 = base_complex::cross(b - a, p - a) / det;
-        const glm::dvec3 at(1 - b1 - b2, b1, b2);
-        const double margin = std::min({at.x, at.y, at.z});
-        const size_t i = size_t(y) * columns + x;
-        if (margin <= inside[i]) continue;
-        inside[i] = margin;
-        points[i] = {f, glm::max(at, glm::dvec3(0))};
-      }
-    }
-  }
-  return points;
-}
+using base_complex::PlaceOnFace;
 
 ChartSampler::ChartSampler(const base_complex::BaseComplex& complex, const scene::Assembly& assembly,
                            const std::vector<uint32_t>& welded, const std::vector<uint32_t>& triangles,
@@ -57,6 +30,7 @@ ChartSampler::ChartSampler(const base_complex::BaseComplex& complex, const scene
       point_owner_(complex.mesh.points(), base_complex::none) {
   constexpr uint64_t arcs_a_task = 64;
   const std::vector<uint32_t> segments = arc_segments(complex, sizes);
+  const base_complex::ArcSmoother smoother(complex);
   parallel_for(complex.arcs.size(), arcs_a_task, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
       const Arc& arc = complex.arcs[i];
@@ -66,10 +40,13 @@ ChartSampler::ChartSampler(const base_complex::BaseComplex& complex, const scene
       const auto length = [&](size_t e) {
         return glm::distance(mesh_.position(arc.points[e]), mesh_.position(arc.points[e + 1]));
       };
-      for (const double place : places_[i]) {
+      const std::vector<PlaceOnFace> moved = smoother.smooth(static_cast<uint32_t>(i), places_[i]);
+      for (size_t k = 0; k < moved.size(); ++k) {
+        const double place = places_[i][k];
         while (edge + 2 < arc.points.size() && walked + length(edge) <= place) walked += length(edge++);
         const double step = length(edge);
-        arc_samples_[i].push_back({edge, step > 0 ? std::clamp((place - walked) / step, 0.0, 1.0) : 0.0});
+        arc_samples_[i].push_back(
+            {edge, step > 0 ? std::clamp((place - walked) / step, 0.0, 1.0) : 0.0, moved[k]});
       }
     }
   });
@@ -111,6 +88,12 @@ SurfaceSample ChartSampler::at_point(uint32_t half_edge) const {
 SurfaceSample ChartSampler::on_passage(const Passage& passage, const std::vector<uint32_t>& run,
                                        uint32_t index) const {
   const ArcSample& sample = arc_samples_[passage.arc][index];
+  if (sample.moved.face != base_complex::none) {
+    const uint32_t f = 3 * sample.moved.face;
+    const glm::dvec3& w = sample.moved.barycentrics;
+    return make_sample(input_triangle(f), mesh_.barycentrics(f) * w.x + mesh_.barycentrics(f + 1) * w.y +
+                                              mesh_.barycentrics(f + 2) * w.z);
+  }
   const uint32_t h = passage.backwards ? run[run.size() - 1 - sample.edge] : run[sample.edge];
   // A half-edge starts at the near end of the arc's edge, or at its far end where the passage runs backwards.
   if (sample.fraction == 0) return at_point(passage.backwards ? next(h) : h);
@@ -150,20 +133,41 @@ void ChartSampler::sample_border(uint32_t cell, std::vector<SurfaceSample>& samp
   }
 }
 
-std::vector<SurfaceSample> ChartSampler::sample(uint32_t cell, const CellMap& map) const {
+Facet ChartSampler::facet(const SurfaceSample& sample) const {
+  const auto& [a, b, c] = corners(sample.triangle);
+  const glm::dvec3 &pa = mesh_.position(a), &pb = mesh_.position(b), &pc = mesh_.position(c);
+  const glm::dvec3 normal = glm::cross(pb - pa, pc - pa);
+  const double length = glm::length(normal);
+  const glm::dvec3 weights(sample.weights[0], sample.weights[1], sample.weights[2]);
+  return {(pa * weights.x + pb * weights.y + pc * weights.z) / double(SurfaceSample::one),
+          length > 0 ? normal / length : glm::dvec3(0)};
+}
+
+ChartSamples ChartSampler::sample(uint32_t cell, const CellMap& map, Folds folds) const {
   const uint32_t columns = sizes_[cell].width + 1, rows = sizes_[cell].height + 1;
-  std::vector<SurfaceSample> samples(size_t(columns) * rows);
-  const std::vector<FacePoint> found = find_lattice(map, columns, rows, 1);
-  for (size_t i = 0; i < found.size(); ++i) {
-    if (found[i].face == base_complex::none) throw base_complex::NotMappable{};
-    const uint32_t h = 3 * complex_.cells[cell].faces[found[i].face];
-    const glm::dvec3& at = found[i].barycentrics;
-    samples[i] =
+  ChartSamples chart;
+  chart.samples.resize(size_t(columns) * rows);
+  chart.points = find_lattice(map, columns, rows, 1);
+  sample_border(cell, chart.samples);
+  const auto is_inner = [&](size_t i) {
+    return i % columns != 0 && i % columns != columns - 1 && i / columns != 0 && i / columns != rows - 1;
+  };
+  std::vector<Facet> facets;
+  for (size_t i = 0; i < chart.points.size(); ++i) {
+    if (chart.points[i].face == base_complex::none) throw base_complex::NotMappable{};
+    facets.push_back(is_inner(i) ? facet_at(complex_, cell, map, chart.points[i]) : facet(chart.samples[i]));
+  }
+  chart.folded = has_folds(columns, facets);
+  if (chart.folded && folds == Folds::unfold) unfold(complex_, cell, map, columns, facets, chart.points);
+  for (size_t i = 0; i < chart.points.size(); ++i) {
+    if (!is_inner(i)) continue;
+    const uint32_t h = 3 * complex_.cells[cell].faces[chart.points[i].face];
+    const glm::dvec3& at = chart.points[i].barycentrics;
+    chart.samples[i] =
         make_sample(input_triangle(h), mesh_.barycentrics(h) * at.x + mesh_.barycentrics(h + 1) * at.y +
                                            mesh_.barycentrics(h + 2) * at.z);
   }
-  sample_border(cell, samples);
-  return samples;
+  return chart;
 }
 
 uint64_t ChartSampler::repeated(uint32_t cell) const {

@@ -8,23 +8,23 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "lodestone/base_complex/arc_smoothing.h"
 #include "lodestone/base_complex/base_complex.h"
 #include "lodestone/base_complex/cell_map.h"
 #include "lodestone/geometry_image/chart_sizes.h"
+#include "lodestone/geometry_image/map_lookup.h"
 #include "lodestone/geometry_image/surface_sample.h"
+#include "lodestone/geometry_image/unfold.h"
 #include "lodestone/scene/assembly.h"
 
 namespace lodestone::geometry_image {
 
-// Of each point of a lattice (row by row, columns x rows of them, `spacing` apart in the rectangle of the
-// map) the face of the map that holds it, or comes nearest to, for numbers are rounded; and where in that
-// face.
-struct FacePoint {
-  uint32_t face = base_complex::none;  // index into CellMap::faces
-  glm::dvec3 barycentrics{0};          // none below 0
+struct ChartSamples {
+  std::vector<SurfaceSample> samples;  // (width + 1) x (height + 1), row by row
+  std::vector<FacePoint> points;       // of the inner ones, where they are in the map
+  bool folded = false;                 // as unfold.h says
 };
-std::vector<FacePoint> find_lattice(const base_complex::CellMap& map, uint32_t columns, uint32_t rows,
-                                    double spacing);
+enum class Folds { leave, unfold };
 
 class ChartSampler {
  public:
@@ -36,8 +36,9 @@ class ChartSampler {
   // Where the boundary of a cell must go for its samples to be those of its arcs.
   base_complex::Rectangle rectangle(uint32_t cell) const;
 
-  // (width + 1) x (height + 1) samples, row by row.
-  std::vector<SurfaceSample> sample(uint32_t cell, const base_complex::CellMap& map) const;
+  // Where the map has them, unless that folds the quads between them and they are to be unfolded. Throws
+  // NotMappable where one is in no face.
+  ChartSamples sample(uint32_t cell, const base_complex::CellMap& map, Folds folds) const;
 
   // Samples on the chart's border that repeat their neighbour, because the chart beside it is coarser.
   uint64_t repeated(uint32_t cell) const;
@@ -46,6 +47,7 @@ class ChartSampler {
   struct ArcSample {
     uint32_t edge;  // of the arc, from its start
     double fraction;
+    base_complex::PlaceOnFace moved;  // counts instead if it has a face
   };
 
   std::array<uint32_t, 3> corners(uint32_t triangle) const;
@@ -54,6 +56,7 @@ class ChartSampler {
   SurfaceSample at_point(uint32_t half_edge) const;
   SurfaceSample on_passage(const base_complex::Passage& passage, const std::vector<uint32_t>& run,
                            uint32_t index) const;
+  Facet facet(const SurfaceSample& sample) const;
   void sample_border(uint32_t cell, std::vector<SurfaceSample>& samples) const;
 
   const base_complex::BaseComplex& complex_;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lodestone/geometry_image/chart_sampler.h"
+#include "lodestone/geometry_image/map_lookup.h"
 #include "lodestone/geometry_image/chart_sizes.h"
 
 namespace lodestone::geometry_image {

@@ -32,7 +32,8 @@ SampledCharts::SampledCharts(const ChartSource& source)
     : source_(source), charts_(source.complex.cells.size()) {}
 
 std::vector<uint32_t> SampledCharts::resize(const std::vector<ChartSize>& sizes) {
-  const ChartSampler sampler(source_.complex, source_.assembly, source_.welded, source_.triangles, sizes);
+  sizes_ = sizes;
+  const ChartSampler sampler = this->sampler();
   const std::vector<uint32_t> segments = arc_segments(source_.complex, sizes);
   std::vector<uint8_t> remade(sizes.size(), 0), failed(sizes.size(), 0);
   parallel_for(sizes.size(), 1, [&](uint64_t begin, uint64_t end) {
@@ -41,7 +42,7 @@ std::vector<uint32_t> SampledCharts::resize(const std::vector<ChartSize>& sizes)
       if (made_for == charts_[c].made_for) continue;
       remade[c] = 1;
       try {
-        charts_[c] = make(sampler, c, sizes[c]);
+        charts_[c] = make(sampler, c, Folds::leave);
         charts_[c].made_for = std::move(made_for);
       } catch (const NotMappable&) {
         charts_[c] = {};
@@ -62,17 +63,40 @@ std::vector<uint32_t> SampledCharts::resize(const std::vector<ChartSize>& sizes)
   return list;
 }
 
-SampledCharts::Chart SampledCharts::make(const ChartSampler& sampler, uint32_t cell,
-                                         const ChartSize& size) const {
+ChartSampler SampledCharts::sampler() const {
+  return {source_.complex, source_.assembly, source_.welded, source_.triangles, sizes_};
+}
+
+void SampledCharts::unfold() {
+  const ChartSampler sampler = this->sampler();
+  folded_.assign(charts_.size(), {});
+  changed_.assign(charts_.size(), false);
+  for (size_t c = 0; c < charts_.size(); ++c) changed_[c] = charts_[c].folded;
+  parallel_for(charts_.size(), 1, [&](uint64_t begin, uint64_t end) {
+    for (auto c = static_cast<uint32_t>(begin); c < end; ++c)
+      if (changed_[c]) folded_[c] = std::exchange(charts_[c], make(sampler, c, Folds::unfold));
+  });
+}
+
+void SampledCharts::fold_again(const std::vector<bool>& marked) {
+  changed_ = marked;
+  for (size_t c = 0; c < charts_.size(); ++c)
+    if (marked[c]) charts_[c] = folded_[c];
+}
+
+SampledCharts::Chart SampledCharts::make(const ChartSampler& sampler, uint32_t cell, Folds folds) const {
   const base_complex::BaseComplex& complex = source_.complex;
+  const ChartSize& size = sizes_[cell];
   Chart chart;
   const CellMap map = map_cell(complex, cell, sampler.rectangle(cell), source_.shapes(cell), {});
   chart.stretch = chart_stretch(map, face_shapes(complex, cell), uint64_t(size.width) * size.height);
   chart.texels.reserve(size.texels());
-  for (const SurfaceSample& at : sampler.sample(cell, map)) chart.texels.push_back(at.texel(cell));
+  const ChartSamples sampled = sampler.sample(cell, map, folds);
+  for (const SurfaceSample& at : sampled.samples) chart.texels.push_back(at.texel(cell));
+  chart.folded = sampled.folded;
   chart.repeated_texels = sampler.repeated(cell);
   if (source_.keep_maps)
-    chart.maps = keep_map(complex, cell, map, source_.triangles, size.width + 1, size.height + 1);
+    chart.maps = keep_map(complex, cell, map, source_.triangles, sampled.points, size.width + 1);
   return chart;
 }
 

@@ -31,12 +31,18 @@ struct ChartSource {
 class SampledCharts {
  public:
   explicit SampledCharts(const ChartSource& source);
+  const ChartSource& source() const { return source_; }
 
   // Makes those charts anew that the sizes change. Returns the cells that could not be mapped, ascending; if
   // there are any, only resize() may be called next.
   std::vector<uint32_t> resize(const std::vector<ChartSize>& sizes);
 
-  // Which charts the last resize() made anew.
+  // Unfolds the samples (unfold.h) of all charts that have folds. Comes last: resize() would not know.
+  void unfold();
+  // Takes that back for the marked charts.
+  void fold_again(const std::vector<bool>& marked);
+
+  // Which charts the last of these calls made anew.
   const std::vector<bool>& changed() const { return changed_; }
   const ChartStretch& stretch(uint32_t chart) const { return charts_[chart].stretch; }
   // Of all charts, one after the other.
@@ -53,11 +59,14 @@ class SampledCharts {
     ChartStretch stretch;
     ChartMaps maps;
     uint64_t repeated_texels = 0;
+    bool folded = false;
   };
-  Chart make(const ChartSampler& sampler, uint32_t cell, const ChartSize& size) const;
+  ChartSampler sampler() const;
+  Chart make(const ChartSampler& sampler, uint32_t cell, Folds folds) const;
 
   const ChartSource source_;
-  std::vector<Chart> charts_;
+  std::vector<ChartSize> sizes_;
+  std::vector<Chart> charts_, folded_;  // `folded_`: those that unfold() made anew, as they were
   std::vector<layout::ChartRecord> records_;
   std::vector<bool> changed_;
 };

@@ -21,11 +21,10 @@ constexpr Binding blend_bindings[] = {
     {"matrices", quad, read},       {"positions", quad, write},      {"normals", quad, write},
     {"tangents", quad, write}};
 
-constexpr Binding relax_begin_bindings[] = {{"texel_map", quad, read},      {"triangles", quad, read},
-                                            {"positions", quad, read},      {"charts", quad, read},
-                                            {"rest_positions", quad, read}, {"face_of_texel", word, read},
-                                            {"relaxed_map", quad, write},   {"sites", quad, write},
-                                            {"now", quad, write},           {"was", quad, write}};
+constexpr Binding relax_begin_bindings[] = {
+    {"texel_map", quad, read},      {"triangles", quad, read}, {"positions", quad, read},
+    {"rest_positions", quad, read}, {"map_sites", quad, read}, {"relaxed_map", quad, write},
+    {"sites", quad, write},         {"now", quad, write},      {"was", quad, write}};
 
 constexpr Binding relax_measure_bindings[] = {{"inner_texels", word, read}, {"charts", quad, read},
                                               {"relaxed_map", quad, read},  {"now", quad, read},

@@ -20,16 +20,22 @@ Relaxation::Relaxation(Backend& backend, const SceneTables& tables, const geomet
       map_faces_(make_buffer(backend, "map_faces", 16, atlas.maps.faces)),
       map_points_(make_buffer(backend, "map_points", 4, atlas.maps.points)),
       map_pieces_(make_buffer(backend, "map_pieces", 4, atlas.maps.pieces)),
-      face_of_texel_(make_buffer(backend, "face_of_texel", 4, atlas.maps.face_of_texel)),
+      map_sites_(make_buffer(backend, "map_sites", 16, atlas.maps.sites)),
       texel_map_(backend, {"relaxed_map", texels_, 16}),
       sites_(backend, {"sites", texels_, 16}),
       now_(backend, {"now", texels_, 16}),
       was_(backend, {"was", texels_, 16}) {}
 
 void Relaxation::run(BufferId positions, uint32_t sweeps) {
-  const std::vector<BufferId> begin = {
-      tables_.texel_map.id(), tables_.triangles.id(), positions,   tables_.charts.id(), rest_positions_.id(),
-      face_of_texel_.id(),    texel_map_.id(),        sites_.id(), now_.id(),           was_.id()};
+  const std::vector<BufferId> begin = {tables_.texel_map.id(),
+                                       tables_.triangles.id(),
+                                       positions,
+                                       rest_positions_.id(),
+                                       map_sites_.id(),
+                                       texel_map_.id(),
+                                       sites_.id(),
+                                       now_.id(),
+                                       was_.id()};
   const layout::CountPush all{texels_};
   backend_.run({&passes::relax_begin, begin, std::as_bytes(std::span(&all, 1)), texels_, {}});
   const std::vector<BufferId> measure = {inner_texels_.id(), tables_.charts.id(), texel_map_.id(),

@@ -32,7 +32,7 @@ class Relaxation {
   const SceneTables& tables_;
   geometry_image::InnerTexels inner_;
   uint32_t texels_;
-  Buffer rest_positions_, inner_texels_, map_faces_, map_points_, map_pieces_, face_of_texel_;
+  Buffer rest_positions_, inner_texels_, map_faces_, map_points_, map_pieces_, map_sites_;
   Buffer texel_map_, sites_, now_, was_;
 };
 

@@ -37,15 +37,14 @@ TEST(ChartMaps, ChangeNothingElseOfTheAtlas) {
   test::expect_equal(with, without);
 }
 
-// What the map says at a lattice point is what the texel samples.
+// What the map says where a texel is is what the texel samples.
 TEST(ChartMaps, AreThoseThatTheTexelsWereSampledBy) {
   const Atlas atlas = curved_sheet(true);
   const ChartMaps& maps = atlas.maps;
   uint64_t checked = 0;
   for (const uint32_t texel : inner_texels(atlas.charts).texels) {
-    const layout::ChartRecord& chart = atlas.charts[atlas.texel_map[texel].w - 1];
-    const glm::vec2 at((texel - chart.first_texel) % chart.width, (texel - chart.first_texel) / chart.width);
-    const layout::MapFace& face = maps.faces[maps.face_of_texel[texel]];
+    const glm::vec2 at = maps.sites[texel].at;
+    const layout::MapFace& face = maps.faces[maps.sites[texel].face];
     const glm::vec2 a = maps.points[face.points[0]], b = maps.points[face.points[1]],
                     c = maps.points[face.points[2]];
     const glm::vec3 sides(layout::relax_side(at, b, c), layout::relax_side(at, c, a),
@@ -96,7 +95,7 @@ TEST(ChartMaps, AreRefusedWhereTheirIndicesLeadAstray) {
   ASSERT_EQ(find_fault(good), "");
   ASSERT_FALSE(good.maps.pieces.empty()) << "or they are not tested";
   const uint32_t inner = inner_texels(good.charts).texels.front();
-  const uint32_t face = good.maps.face_of_texel[inner];
+  const uint32_t face = good.maps.sites[inner].face;
   const auto refuse = [&](const auto& change, const std::string& because) {
     Atlas bad = good;
     change(bad.maps);
@@ -111,15 +110,17 @@ TEST(ChartMaps, AreRefusedWhereTheirIndicesLeadAstray) {
   refuse([&](ChartMaps& m) { m.faces.back().triangle = static_cast<uint32_t>(good.report.triangles); },
          face_fault);
   refuse([&](ChartMaps& m) { m.faces.clear(); }, "a texel in no face of its map");
-  refuse([&](ChartMaps& m) { m.face_of_texel[inner] = layout::no_index; }, "a texel in no face of its map");
-  refuse([&](ChartMaps& m) { m.face_of_texel[inner] = static_cast<uint32_t>(m.faces.size()); },
+  refuse([&](ChartMaps& m) { m.sites[inner].face = layout::no_index; }, "a texel in no face of its map");
+  refuse([&](ChartMaps& m) { m.sites[inner].face = static_cast<uint32_t>(m.faces.size()); },
          "a texel in no face of its map");
-  refuse([&](ChartMaps& m) { m.face_of_texel[0] = face; }, "a texel in no face of its map");
-  refuse([&](ChartMaps& m) { m.face_of_texel.pop_back(); }, "maps of another number of texels");
-  refuse([&](ChartMaps& m) { m.face_of_texel.clear(); }, "maps of no texel");
+  refuse([&](ChartMaps& m) { m.sites[0].face = face; }, "a texel in no face of its map");
+  refuse([&](ChartMaps& m) { m.sites.pop_back(); }, "maps of another number of texels");
+  refuse([&](ChartMaps& m) { m.sites.clear(); }, "maps of no texel");
   const std::string point_fault = "a map with a point outside its rectangle";
   for (const float bad : {-1.0f, 1e9f, std::nanf("")})
     refuse([&](ChartMaps& m) { m.points[0].x = bad; }, point_fault);
+  for (const float bad : {-1.0f, 1e9f, std::nanf("")})
+    refuse([&](ChartMaps& m) { m.sites[inner].at.y = bad; }, "a texel outside its rectangle");
   for (const float bad : {-0.5f, 1.5f, std::nanf("")})
     refuse([&](ChartMaps& m) { m.pieces[0].corners[2].y = bad; }, "a map with a piece outside its triangle");
 }

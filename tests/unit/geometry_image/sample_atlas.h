@@ -56,7 +56,11 @@ inline void expect_equal(const Atlas& a, const Atlas& b) {
   }
   EXPECT_EQ(a.texel_map, b.texel_map);
   EXPECT_EQ(a.leaf_map, b.leaf_map);
-  EXPECT_EQ(a.maps.face_of_texel, b.maps.face_of_texel);
+  ASSERT_EQ(a.maps.sites.size(), b.maps.sites.size());
+  for (size_t i = 0; i < a.maps.sites.size(); ++i) {
+    EXPECT_EQ(a.maps.sites[i].at, b.maps.sites[i].at);
+    EXPECT_EQ(a.maps.sites[i].face, b.maps.sites[i].face);
+  }
   EXPECT_EQ(a.maps.points, b.maps.points);
   EXPECT_EQ(a.maps.faces.size(), b.maps.faces.size());
   EXPECT_EQ(a.maps.pieces.size(), b.maps.pieces.size());
