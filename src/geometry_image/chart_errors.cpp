@@ -24,14 +24,22 @@ std::vector<glm::uvec3> triangles_of(std::span<const layout::ChartRecord> charts
   return triangles;
 }
 
+double longest_edge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+}
+
+bool is_long(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double apart) {
+  return longest_edge(a, b, c) > 2 * apart;
+}
+
 // Calls check(point) for the middles of a triangle's edges, its centroid, and as many points between them as
 // it takes that none is farther than `apart` from the next, but no more than some.
 template <class Check>
 void for_samples(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double apart, Check check) {
   constexpr double most = 8;  // halves of them an edge
-  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  const double longest = longest_edge(a, b, c);
   const int steps =
-      longest > 2 * apart ? 2 * static_cast<int>(std::min(std::ceil(0.5 * longest / apart), most)) : 2;
+      is_long(a, b, c, apart) ? 2 * static_cast<int>(std::min(std::ceil(0.5 * longest / apart), most)) : 2;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
       const bool corner = i == steps || j == steps || i + j == 0;
@@ -120,8 +128,11 @@ void ChartErrors::measure_input(const ChartPoints& image, const std::vector<bool
       const glm::dvec3 a = input_.positions[t.x], b = input_.positions[t.y], c = input_.positions[t.z];
       double& error = of_triangle_[triangles[i]];
       error = 0;
-      for (const glm::dvec3& point : {a, b, c, (a + b + c) / 3.0})
+      const auto check = [&](const glm::dvec3& point) {
         error = std::max(error, tree.nearest(point).distance);
+      };
+      for (const glm::dvec3& point : {a, b, c, (a + b + c) / 3.0}) check(point);
+      if (is_long(a, b, c, apart_)) for_samples(a, b, c, apart_, check);
     }
   });
 }

@@ -13,8 +13,9 @@ ChartFeedback::ChartFeedback(const base_complex::BaseComplex& complex, const Arc
       arc_errors_(arc_errors),
       tolerance_(tolerance),
       need_(std::move(need)),
-      before_(complex.cells.size()) {
-  need_.found.assign(complex.cells.size(), 0);
+      tried_(complex.cells.size()) {
+  need_.fixed.assign(complex.cells.size(), {});
+  need_.found.resize(complex.cells.size(), 0);
 }
 
 bool ChartFeedback::learn(const std::vector<ChartSize>& sizes, const std::vector<double>& errors) {
@@ -22,9 +23,10 @@ bool ChartFeedback::learn(const std::vector<ChartSize>& sizes, const std::vector
   bool learnt = false;
   for (uint32_t c = 0; c < errors.size(); ++c) {
     const double known = std::max(tolerance_, error_of_firm_arcs(c, segments));
-    const double found = learn_of(c, uint64_t(sizes[c].width) * sizes[c].height, errors[c], known);
-    learnt = learnt || found != need_.found[c];
-    need_.found[c] = found;
+    const double found = need_.found[c];
+    const Quads fixed = need_.fixed[c];
+    learn_of(c, {sizes[c].width, sizes[c].height}, errors[c], known);
+    learnt = learnt || found != need_.found[c] || fixed != need_.fixed[c];
   }
   return learnt;
 }
@@ -37,30 +39,32 @@ double ChartFeedback::error_of_firm_arcs(uint32_t chart, const std::vector<uint3
   return most;
 }
 
-// The need of a chart that is too far grows step by step, and falls slowly where it was more than enough: all
-// share one budget, and who asks for too much makes others coarse.
-double ChartFeedback::learn_of(uint32_t chart, uint64_t quads, double error, double known) {
+// The need of a chart that is too far grows step by step: all share one budget, and who asks for too much
+// makes others coarse. Where it was enough, or does not help any more, the size is settled. Without that all
+// sizes would change with all needs, errors with them, and attempts would not get better.
+void ChartFeedback::learn_of(uint32_t chart, Quads size, double error, double known) {
   constexpr double growth = 0.8;  // exponent
-  constexpr double most = 0.3, enough = 0.7, decay = 0.9;
-  constexpr uint64_t many = 3;  // times as many quads
-  constexpr double better = 0.9;
-  Before& before = before_[chart];
-  const double found = need_.found[chart];
-  if (before.in_vain) return found;
-  if (quads >= many * before.quads) {
-    if (error > known && error > better * before.error) {
-      before.in_vain = true;
-      return before.found;
-    }
-    before.quads = quads;
-    before.error = error;
-    before.found = found;
+  constexpr double most = 0.3, better = 0.95;
+  constexpr uint32_t patience = 3;
+  Tried& tried = tried_[chart];
+  double& found = need_.found[chart];
+  Quads& fixed = need_.fixed[chart];
+  if (error < better * tried.least_error) {
+    tried.least_error = error;
+    tried.best = size;
+    tried.in_vain = 0;
+  } else if (error > known && size != tried.last) {
+    ++tried.in_vain;
   }
-  if (error > known) {
-    before.too_little = std::max(before.too_little, found);
-    return std::min(most, std::max(found, need_.flattest) * std::pow(error / known, growth));
+  tried.last = size;
+  if (error <= known) {
+    if (found > 0) fixed = size;
+  } else if (tried.in_vain >= patience) {
+    fixed = tried.best;
+  } else {
+    fixed = {};
+    found = std::min(most, std::max(found, need_.flattest) * std::pow(error / known, growth));
   }
-  return error < enough * known && decay * found > before.too_little ? decay * found : found;
 }
 
 double ChartFeedback::badness(const std::vector<double>& errors) const {
@@ -70,10 +74,10 @@ double ChartFeedback::badness(const std::vector<double>& errors) const {
   return sum;
 }
 
-std::vector<uint32_t> ChartFeedback::hopeless(const std::vector<double>& errors) const {
+std::vector<uint32_t> ChartFeedback::always_far(const std::vector<double>& errors) const {
   std::vector<uint32_t> list;
   for (uint32_t c = 0; c < errors.size(); ++c)
-    if (errors[c] > tolerance_ && before_[c].in_vain) list.push_back(c);
+    if (errors[c] > tolerance_ && tried_[c].least_error > tolerance_) list.push_back(c);
   return list;
 }
 

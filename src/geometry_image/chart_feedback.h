@@ -27,27 +27,24 @@ class ChartFeedback {
   // Of an attempt, the less the better: what is too far counts the more the farther it is.
   double badness(const std::vector<double>& errors) const;
 
-  // Of the same attempt, charts that are too far and that closer samples do not help: their cells are to
-  // blame.
-  std::vector<uint32_t> hopeless(const std::vector<double>& errors) const;
+  // Of the same attempt, charts that are too far and were so in all before.
+  std::vector<uint32_t> always_far(const std::vector<double>& errors) const;
 
  private:
-  // The attempt that later ones are compared with, to see whether closer samples help.
-  struct Before {
-    uint64_t quads = 0;
-    double error = std::numeric_limits<double>::infinity();
-    double found = 0;       // its need
-    bool in_vain = false;   // they did not: its need stays
-    double too_little = 0;  // the greatest need of any attempt that was too far
+  struct Tried {
+    double least_error = std::numeric_limits<double>::infinity();
+    Quads best;            // with which that was
+    Quads last;            // of the last attempt
+    uint32_t in_vain = 0;  // other sizes since the best that were still too far
   };
   double error_of_firm_arcs(uint32_t chart, const std::vector<uint32_t>& segments) const;
-  double learn_of(uint32_t chart, uint64_t quads, double error, double known);
+  void learn_of(uint32_t chart, Quads size, double error, double known);
 
   const base_complex::BaseComplex& complex_;
   const ArcErrors& arc_errors_;
   const double tolerance_;
   Need need_;
-  std::vector<Before> before_;  // of each chart
+  std::vector<Tried> tried_;  // of each chart
 };
 
 }  // namespace lodestone::geometry_image

@@ -43,23 +43,32 @@ uint64_t texels_of(const Sides& sides) {
   return uint64_t(sides.width + 1) * (sides.height + 1);
 }
 
-// What each arc needs: that its segments be short and, where it is firm, that it be near to its samples.
+// What each arc needs: that its segments be short and that it be near to its samples, above all where it is
+// firm or belongs to a chart that was too far from the surface.
 class ArcNeeds {
  public:
   ArcNeeds(const BaseComplex& complex, const ArcErrors& errors, const Need& need)
-      : complex_(complex), errors_(errors), need_(need), roughness_(complex.arcs.size(), need.flattest) {
-    for (size_t c = 0; c < need.found.size(); ++c)
-      for (const base_complex::Passage& p : complex.cells[c].boundary)
+      : complex_(complex),
+        errors_(errors),
+        share_(complex.arcs.size(), need.share),
+        roughness_(complex.arcs.size(), need.flattest) {
+    for (size_t a = 0; a < complex.arcs.size(); ++a)
+      if (complex.arcs[a].firm) share_[a] = 1;
+    for (size_t c = 0; c < need.found.size(); ++c) {
+      if (need.found[c] == 0) continue;
+      for (const base_complex::Passage& p : complex.cells[c].boundary) {
+        share_[p.arc] = 1;
         if (!complex.arcs[p.arc].firm) roughness_[p.arc] = std::max(roughness_[p.arc], need.found[c]);
+      }
+    }
   }
 
   // Whatever a line does, it is hardly farther from its chord than half the chord's length.
   double of(uint32_t arc, uint32_t segments) const {
     constexpr double farthest = 0.5;
     const double spacing = complex_.arcs[arc].length / segments;
-    const double share = complex_.arcs[arc].firm ? 1.0 : need_.share;
     return std::max(roughness_[arc] * spacing,
-                    share * std::min(errors_.error(arc, segments), farthest * spacing));
+                    share_[arc] * std::min(errors_.error(arc, segments), farthest * spacing));
   }
 
   // Shares a side's quads among its passages, at least one each; returns the greatest need that is left.
@@ -82,7 +91,7 @@ class ArcNeeds {
  private:
   const BaseComplex& complex_;
   const ArcErrors& errors_;
-  const Need& need_;
+  std::vector<double> share_;      // of each arc's error what counts
   std::vector<double> roughness_;  // of each arc, the expected error by the spacing
 };
 
@@ -94,6 +103,7 @@ class Refiner {
     parallel_for(plans_.size(), 1, [&](uint64_t begin, uint64_t end) {
       for (uint64_t c = begin; c < end; ++c) {
         plans_[c].sides = least_sides(complex, complex.cells[c]);
+        if (is_fixed(c)) plans_[c].sides = {need.fixed[c].width, need.fixed[c].height};
         plan(c);
       }
     });
@@ -103,7 +113,8 @@ class Refiner {
   std::vector<Sides> run(uint64_t budget) {
     std::priority_queue<std::pair<double, uint64_t>> queue;  // need, and the lowest chart first
     const auto push = [&](uint64_t c) { queue.push({plans_[c].need, ~c}); };
-    for (uint64_t c = 0; c < plans_.size(); ++c) push(c);
+    for (uint64_t c = 0; c < plans_.size(); ++c)
+      if (!is_fixed(c)) push(c);
     while (!queue.empty()) {
       const uint64_t c = ~queue.top().second;
       queue.pop();
@@ -124,6 +135,8 @@ class Refiner {
     Sides sides, next;
     double need = 0;
   };
+
+  bool is_fixed(uint64_t chart) const { return !need_.fixed.empty() && need_.fixed[chart].width != 0; }
 
   double need_of(uint64_t chart, const Sides& quads) const {
     const double weight = need_.chart_weights.empty() ? 1.0 : need_.chart_weights[chart];

@@ -19,6 +19,11 @@ struct ChartSize {
   uint64_t texels() const { return uint64_t(width + 1) * (height + 1); }
 };
 
+struct Quads {
+  uint32_t width = 0, height = 0;  // 0: open
+  bool operator==(const Quads&) const = default;
+};
+
 // What is to be small everywhere: how far charts are expected to be from the surface. That is `share` of the
 // profile's error, but at least `flattest` and at most `roughest` times the spacing of the samples: so flat
 // charts get samples too, and a chart whose error does not fall does not take them all. Both equal: even
@@ -27,8 +32,10 @@ struct ChartSize {
 struct Need {
   double flattest = 1, roughest = 1, share = 1;
   // One a chart, or empty: of a chart that has been found to be farther from the surface than expected, how
-  // far, by the spacing of the samples; else 0. Counts where it is more.
+  // far, by the spacing of the samples; else 0. Counts where it is more, and arcs of such a chart count in
+  // full.
   std::vector<double> found;
+  std::vector<Quads> fixed;           // one a chart, or empty: where not open, the chart's size
   std::vector<double> chart_weights;  // one a chart, or empty: all 1. The expected error is multiplied by it
 };
 

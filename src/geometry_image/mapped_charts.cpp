@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -11,18 +11,14 @@
 #include "lodestone/base/parallel.h"
 #include "lodestone/base_complex/base_complex.h"
 #include "lodestone/base_complex/dual.h"
-#include "lodestone/geometry_image/arc_errors.h"
-#include "lodestone/geometry_image/chart_errors.h"
-#include "lodestone/geometry_image/chart_feedback.h"
+#include "lodestone/geometry_image/chart_attempts.h"
 #include "lodestone/geometry_image/chart_profile.h"
 #include "lodestone/geometry_image/chart_seams.h"
 #include "lodestone/geometry_image/chart_sizes.h"
-#include "lodestone/geometry_image/chart_stretch.h"
 #include "lodestone/geometry_image/profile_maker.h"
 #include "lodestone/geometry_image/sampled_charts.h"
 #include "lodestone/geometry_image/screen_need.h"
 #include "lodestone/geometry_image/shape_metrics.h"
-#include "lodestone/geometry_image/texel_values.h"
 
 namespace lodestone::geometry_image {
 namespace {
@@ -45,25 +41,17 @@ constexpr double longest_edge = 0.35;
 // the surface is bent as sharply as its charts are wide; with Signal::curvature it counts, within bounds.
 Need need_of(Signal signal) {
   constexpr double flattest = 0.04;
-  return signal == Signal::curvature ? Need{flattest, 0.12, 1, {}, {}} : Need{flattest, 0.5, 0.2, {}, {}};
+  return signal == Signal::curvature ? Need{flattest, 0.12, 1, {}, {}, {}}
+                                     : Need{flattest, 0.5, 0.15, {}, {}, {}};
 }
-// Charts farther from the surface than this, in diagonals of all, get more texels at the cost of the others,
-// until so many attempts have brought nothing better.
+// Charts farther from the surface than this, in diagonals of all, get more texels at the cost of the others.
 constexpr double tolerated = 0.004;
-constexpr uint32_t patience = 10, most_attempts = 16;
-constexpr double apart = 4;  // in tolerances, the points that are measured
 // Cells with more arcs are split: a side has a segment for each of its arcs at least, so the fewest quads of
 // a cell go with the square of their number.
 constexpr size_t most_arcs = 16;
-// Cells of more faces are split where their map is uneven: the root mean square of its stretch is larger, as
-// it is where a limb was to be flattened.
-constexpr size_t worth_splitting = 32;
-constexpr double too_uneven = 2.5;
-// That, and a proper dual, are cared for only while the budget is so many times what the cells need: each has
-// arcs of its own, which cost texels that all others then lack.
+// Even maps, and a proper dual, are cared for only while the budget is so many times what the cells need:
+// each has arcs of its own, which cost texels that all others then lack.
 constexpr uint64_t plenty_for_evenness = 6, plenty_for_dual = 8;
-// Cells that stay too far from the surface are split again if that has brought so much.
-constexpr double worthwhile = 0.9;  // of the badness before
 
 // In the rest pose. A transform may overflow: such a point lies anywhere, but somewhere.
 std::vector<glm::vec3> finite_positions(const scene::Scene& scene, const scene::Assembly& assembly) {
@@ -130,14 +118,13 @@ class ChartMaker {
     stage("cells");
     Cells cells = grow_cells(mesh, options);
     if (leave_out_soup(mesh, cells)) return false;
-    RoundsLeft left;
-    Best best;
+    Progress progress;
     for (int round = 0;; ++round) {
-      const std::vector<uint32_t> to_split = try_cells(mesh, cells, best, left);
+      const std::vector<uint32_t> to_split = try_cells(mesh, cells, progress);
       const uint32_t stuck =
           to_split.empty() ? base_complex::none : split(mesh, cells, to_split, round < most_rounds);
-      if (to_split.empty() || (stuck != base_complex::none && best.exists())) {
-        result = std::move(best.charts);
+      if (to_split.empty() || (stuck != base_complex::none && progress.has_charts())) {
+        result = progress.best->finish();
         return true;
       }
       if (stuck != base_complex::none) {
@@ -169,100 +156,68 @@ class ChartMaker {
   // How often cells may still be split that have too many arcs, those for which the dual is not proper, those
   // whose maps are uneven (many are so however small they are), and those that stay too far from the surface.
   struct RoundsLeft {
-    int crowded = 6, improper = 6, uneven = 4, hopeless = 3;
+    int crowded = 6, improper = 6, uneven = 4, far = 6;
   };
+  // What rounds leave for later ones.
+  struct Progress {
+    RoundsLeft left;
+    std::unique_ptr<ChartAttempts> best;
+    std::vector<double> found;  // of the charts of the last round, as Need::found
 
-  struct Best {
-    MappedCharts charts;
-    double badness = std::numeric_limits<double>::infinity();
-    bool exists() const { return !charts.charts.empty(); }
+    bool has_charts() const { return best && std::isfinite(best->badness()); }
   };
 
   // Makes charts of the cells, the best of all so far. Returns cells to split for a better try: those that
   // could not be mapped, or not well.
-  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, Best& best,
-                                  RoundsLeft& left) const {
+  std::vector<uint32_t> try_cells(const HalfEdgeMesh& mesh, const Cells& cells, Progress& progress) const {
     stage("complex");
-    const BaseComplex complex = build_complex(mesh, cells);
-    std::vector<uint32_t> crowded;
-    for (uint32_t c = 0; c < complex.cells.size(); ++c) {
-      const Cell& cell = complex.cells[c];
-      if (cell.boundary.size() > most_arcs && cell.faces.size() > most_arcs) crowded.push_back(c);
-    }
-    if (!crowded.empty() && left.crowded > 0) {
-      --left.crowded;
-      return crowded;
-    }
-    const uint64_t least = least_texels(complex);
+    auto complex = std::make_unique<const BaseComplex>(build_complex(mesh, cells));
+    RoundsLeft& left = progress.left;
+    std::vector<uint32_t> crowded = crowded_cells(*complex);
+    if (!crowded.empty() && left.crowded-- > 0) return crowded;
+    const uint64_t least = least_texels(*complex);
     if (plenty_for_dual * least <= budget_ && left.improper-- > 0) {
-      std::vector<uint32_t> improper = cells_against_proper_dual(complex);
-      std::erase_if(improper, [&](uint32_t c) { return complex.cells[c].faces.size() < 2; });
+      std::vector<uint32_t> improper = cells_against_proper_dual(*complex);
+      std::erase_if(improper, [&](uint32_t c) { return complex->cells[c].faces.size() < 2; });
       if (!improper.empty()) return improper;
     }
     const ChartSource source = {
-        complex, assembly_, welded_, triangles_, metrics_ ? &*metrics_ : nullptr, settings_.keep_maps};
-    std::vector<std::optional<ChartProfile>> found(complex.cells.size());
+        *complex, assembly_, welded_, triangles_, metrics_ ? &*metrics_ : nullptr, settings_.keep_maps};
+    std::vector<std::optional<ChartProfile>> made(complex->cells.size());
     stage("profiles");
-    std::vector<uint32_t> failed = profile(source, found);
+    std::vector<uint32_t> failed = profile(source, made);
     if (!failed.empty()) return failed;
     std::vector<ChartProfile> profiles;
-    for (std::optional<ChartProfile>& p : found) profiles.push_back(std::move(*p));
-    return improve(source, profiles, plenty_for_evenness * least <= budget_ && left.uneven > 0, best, left);
-  }
-
-  // The best of some attempts, each of which gives more texels to what was too far from the surface before.
-  // Returns as try_cells().
-  std::vector<uint32_t> improve(const ChartSource& source, const std::vector<ChartProfile>& profiles,
-                                bool may_split, Best& best, RoundsLeft& left) const {
-    const BaseComplex& complex = source.complex;
+    for (std::optional<ChartProfile>& p : made) profiles.push_back(std::move(*p));
+    Need to_begin_with = need(source);
+    to_begin_with.found = progress.found;
     const mesh::Surface surface = {positions_, corners_};
-    const ArcErrors arc_errors(complex);
-    const double tolerance = tolerated * mesh::diagonal(surface);
-    ChartFeedback feedback(complex, arc_errors, tolerance, need(source));
-    SampledCharts charts(source);
-    ChartErrors chart_errors(complex, surface, *tree_, apart * tolerance);
-    std::vector<uint32_t> hopeless;
-    const double least_before = best.badness;
-    double least = std::numeric_limits<double>::infinity();
-    uint32_t best_attempt = 0;
-    for (uint32_t attempt = 0; attempt < std::min(best_attempt + patience, most_attempts); ++attempt) {
-      stage("sizes");
-      const std::vector<ChartSize> sizes =
-          choose_sizes(complex, profiles, arc_errors, feedback.need(), budget_);
-      stage("maps");
-      std::vector<uint32_t> failed = charts.resize(sizes);
-      if (failed.empty() && may_split) failed = uneven(complex, charts);
-      if (!failed.empty()) {
-        --left.uneven;
-        return failed;
-      }
-      stage("errors");
-      const std::vector<glm::vec3> points = at_texels(assembly_, charts.texels(), positions_);
-      const std::vector<double>& errors = chart_errors.measure({charts.records(), points}, charts.changed());
-      const double bad = feedback.badness(errors);
-      if (attempt == 0 || bad < least) {
-        least = bad;
-        best_attempt = attempt;
-        if (!best.exists() || bad < best.badness) best = {charts.result(), bad};
-      }
-      const bool learnt = feedback.learn(sizes, errors);
-      hopeless = feedback.hopeless(errors);
-      if (!learnt) break;
+    const Target target = {positions_, surface, *tree_, tolerated * mesh::diagonal(surface), budget_};
+    auto attempts = std::make_unique<ChartAttempts>(std::move(complex), source, std::move(profiles),
+                                                    std::move(to_begin_with), target, on_stage_);
+    const ChartAttempts::Outcome outcome =
+        attempts->run({.even = plenty_for_evenness * least <= budget_ && left.uneven > 0,
+                       .near = affordable(least) && left.far > 0});
+    if (outcome.fault == ChartAttempts::Fault::uneven) --left.uneven;
+    if (outcome.fault == ChartAttempts::Fault::far) {
+      --left.far;
+      progress.found = attempts->found();
+      for (const uint32_t c : outcome.cells) progress.found[c] = 0;
     }
-    const bool affordable = 4 * least_texels(complex) <= 3 * budget_;
-    if (!affordable || left.hopeless-- <= 0 || least > worthwhile * least_before) return {};
-    std::erase_if(hopeless, [&](uint32_t c) { return complex.cells[c].faces.size() <= worth_splitting; });
-    return hopeless;
+    if (!progress.best || attempts->badness() < progress.best->badness()) progress.best = std::move(attempts);
+    return outcome.cells;
   }
 
-  static std::vector<uint32_t> uneven(const BaseComplex& complex, const SampledCharts& charts) {
+  static std::vector<uint32_t> crowded_cells(const BaseComplex& complex) {
     std::vector<uint32_t> list;
     for (uint32_t c = 0; c < complex.cells.size(); ++c) {
-      const bool large = complex.cells[c].faces.size() > worth_splitting;
-      if (large && charts.stretch(c).unevenness > too_uneven) list.push_back(c);
+      const Cell& cell = complex.cells[c];
+      if (cell.boundary.size() > most_arcs && cell.faces.size() > most_arcs) list.push_back(c);
     }
     return list;
   }
+
+  bool affordable(uint64_t least) const { return 4 * least <= 3 * budget_; }
 
   Need need(const ChartSource& source) const {
     Need need = need_of(settings_.signal);

@@ -111,7 +111,11 @@ TEST(SampledCharts, KeepWhatWouldBeMadeAnew) {
     EXPECT_EQ(a.repeated_texels, b.repeated_texels);
     EXPECT_EQ(a.mean_stretch, b.mean_stretch);
     EXPECT_EQ(a.high_stretch, b.high_stretch);
-    EXPECT_EQ(a.maps.face_of_texel, b.maps.face_of_texel);
+    ASSERT_EQ(a.maps.sites.size(), b.maps.sites.size());
+    for (size_t i = 0; i < a.maps.sites.size(); ++i) {
+      EXPECT_EQ(a.maps.sites[i].at, b.maps.sites[i].at);
+      EXPECT_EQ(a.maps.sites[i].face, b.maps.sites[i].face);
+    }
     for (size_t c = 0; c < a.charts.size(); ++c) {
       EXPECT_EQ(a.charts[c].first_texel, b.charts[c].first_texel);
       EXPECT_EQ(a.charts[c].width, second[c].width + 1);
@@ -157,7 +161,7 @@ TEST(ChartErrors, AreHowFarCoarseChartsAreFromASphere) {
 class Feedback : public testing::Test {
  protected:
   const Sample sample{base_complex::test::sphere(16)};
-  ChartFeedback feedback{sample.complex, sample.arc_errors, 1.0, Need{0.04, 0.5, 0.2, {}, {}}};
+  ChartFeedback feedback{sample.complex, sample.arc_errors, 1.0, Need{0.04, 0.5, 0.2, {}, {}, {}}};
   std::vector<ChartSize> sizes = sample.sizes(2000);
   std::vector<double> errors = std::vector<double>(sample.complex.cells.size(), 0.8);
 
@@ -182,34 +186,63 @@ TEST_F(Feedback, AsksForMoreTheFartherAChartIs) {
   EXPECT_GT(found(), before);
 }
 
-TEST_F(Feedback, AsksForLessWhereItWasMoreThanEnoughButNeverForWhatWasTooLittle) {
+TEST_F(Feedback, SettlesASizeThatWasEnough) {
+  EXPECT_EQ(feedback.need().fixed[0], Quads{});
   errors[0] = 2;
   feedback.learn(sizes, errors);
-  const double too_little = found();
-  feedback.learn(sizes, errors);
-  double before = found();
-  errors[0] = 0.1;
+  EXPECT_EQ(feedback.need().fixed[0], Quads{});
+  const double before = found();
+  refine_first(2);
+  errors[0] = 0.9;
   EXPECT_TRUE(feedback.learn(sizes, errors));
-  EXPECT_LT(found(), before);
-  for (int i = 0; i < 40; ++i) feedback.learn(sizes, errors);
-  EXPECT_GE(found(), too_little);
+  EXPECT_EQ(feedback.need().fixed[0], (Quads{sizes[0].width, sizes[0].height}));
+  EXPECT_EQ(found(), before);
+  EXPECT_EQ(feedback.need().fixed[1], Quads{}) << "it had enough all the time";
+  EXPECT_FALSE(feedback.learn(sizes, errors));
+  // Arcs may become coarser with the charts beside it, and its size too little.
+  errors[0] = 1.1;
+  EXPECT_TRUE(feedback.learn(sizes, errors));
+  EXPECT_EQ(feedback.need().fixed[0], Quads{});
+  EXPECT_GT(found(), before);
 }
 
 TEST_F(Feedback, GivesUpOnAChartThatCloserSamplesDoNotHelp) {
+  errors[0] = 1.1;
+  const Quads first = {sizes[0].width, sizes[0].height};
+  EXPECT_TRUE(feedback.learn(sizes, errors));
+  EXPECT_EQ(feedback.always_far(errors), std::vector<uint32_t>{0});
+  for (int i = 0; i < 4; ++i) {
+    const double before = found();
+    EXPECT_TRUE(feedback.learn(sizes, errors));
+    EXPECT_GT(found(), before) << "it asks for more, and has not got it yet";
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(feedback.need().fixed[0], Quads{});
+    refine_first(2);
+    errors[0] = 1.1 + i;
+    EXPECT_TRUE(feedback.learn(sizes, errors));
+  }
+  EXPECT_EQ(feedback.need().fixed[0], first) << "the least that was as good";
+  EXPECT_FALSE(feedback.learn(sizes, errors));
+  EXPECT_EQ(feedback.always_far(errors), std::vector<uint32_t>{0});
+  errors[0] = 0.9;
+  EXPECT_TRUE(feedback.always_far(errors).empty());
+}
+
+TEST_F(Feedback, DoesNotCallAChartFarThatWasNearOnce) {
+  feedback.learn(sizes, errors);
   errors[0] = 2;
   feedback.learn(sizes, errors);
-  EXPECT_TRUE(feedback.hopeless(errors).empty());
-  const double before = found();
-  refine_first(2);
-  feedback.learn(sizes, errors);
-  EXPECT_GT(found(), before) << "twice as many quads may be too few to tell";
-  refine_first(2);
-  feedback.learn(sizes, errors);
-  EXPECT_EQ(found(), 0) << "what it had when it was as good";
-  EXPECT_EQ(feedback.hopeless(errors), std::vector<uint32_t>{0});
-  EXPECT_FALSE(feedback.learn(sizes, errors));
-  errors[0] = 0.9;
-  EXPECT_TRUE(feedback.hopeless(errors).empty());
+  EXPECT_TRUE(feedback.always_far(errors).empty());
+}
+
+TEST_F(Feedback, GoesOnFromWhatWasFoundBefore) {
+  Need need{0.04, 0.5, 0.2, {0.1}, {}, {}};
+  ChartFeedback later(sample.complex, sample.arc_errors, 1.0, need);
+  EXPECT_EQ(later.need().found[0], 0.1);
+  EXPECT_EQ(later.need().found.size(), errors.size());
+  EXPECT_TRUE(later.learn(sizes, errors));
+  EXPECT_EQ(later.need().fixed[0], (Quads{sizes[0].width, sizes[0].height}));
 }
 
 TEST_F(Feedback, FindsAnAttemptWorseTheFartherItsWorstChartIs) {

@@ -185,6 +185,19 @@ TEST(ChartSizes, GiveMoreWhereChartsWereFoundToBeFar) {
   }
 }
 
+TEST(ChartSizes, LeaveAFixedSizeAsItIs) {
+  const BaseComplex complex = complex_of(base_complex::test::plane(40, 40).mesh(), 16);
+  Need need;
+  const std::vector<ChartSize> even = sizes_of(complex, 1 << 14, need);
+  need.fixed.resize(complex.cells.size());
+  need.fixed[3] = {even[3].width + 1, 2 * even[3].height};
+  const std::vector<ChartSize> sizes = sizes_of(complex, 1 << 14, need);
+  EXPECT_EQ(sizes[3].width, need.fixed[3].width);
+  EXPECT_EQ(sizes[3].height, need.fixed[3].height);
+  EXPECT_LE(texels_of(sizes), 1u << 14) << "the others get what is left";
+  EXPECT_GT(texels_of(sizes), 12000u);
+}
+
 TEST(ChartSizes, EndWhereMortonCodesDo) {
   const BaseComplex complex = complex_of(base_complex::test::single_triangle().mesh(), 1);
   ASSERT_EQ(complex.cells.size(), 1u);
