@@ -56,7 +56,8 @@ TEST(ArcSmoothing, StraightensAZigzag) {
       const glm::dvec3& w = moved[i].barycentrics;
       EXPECT_GE(std::min({w.x, w.y, w.z}), 0);
       EXPECT_NEAR(w.x + w.y + w.z, 1, 1e-12);
-      EXPECT_NEAR(position_of(complex, moved[i]).x, 12.5, 0.2) << "its points are 0.5 away";
+      EXPECT_NEAR(position_of(complex, moved[i]).x, 12.5, 0.25)
+          << "its points are 0.5 away, its mean over a step half of that";
       ++moved_places;
     }
   }
