@@ -2,8 +2,10 @@
 #include <algorithm>
 
 #include "lodestone/app/atlas_text.h"
+#include "lodestone/app/baked_scene.h"
 #include "lodestone/app/describe.h"
 #include "lodestone/app/stage_clock.h"
+#include "lodestone/base/error.h"
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/geometry_image/fidelity.h"
 #include "lodestone/scene/assembly.h"
@@ -184,10 +186,29 @@ Json describe_scene(const SceneOptions& options) {
 Json describe_baked(const std::string& file) {
   geometry_image::BakeRecord record;
   const geometry_image::Atlas atlas = geometry_image::load_atlas(file, &record);
+  Json distance = nullptr, why_not = nullptr;
+  if (!record.scene.empty() && atlas.report.mapped_charts > 0) {
+    // The file alone does not know the mesh.
+    try {
+      SceneOptions options;
+      options.scene = file;
+      BakedScene baked(options);
+      const scene::Scene scene = baked.load();
+      const scene::Assembly assembly = scene::assemble(scene);
+      const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+      distance =
+          describe_distance(measure_fidelity(scene, assembly, baked.take_atlas(scene, assembly), rest));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::bad_input) throw;
+      why_not = error.what();
+    }
+  }
   return {{"baked", file},
           {"content_hash", record.content_hash},
           {"source", describe_source(record)},
-          {"atlas", describe_atlas(atlas)}};
+          {"atlas", describe_atlas(atlas)},
+          {"distance", distance},
+          {"distance_not_measured", why_not}};
 }
 
 }  // namespace lodestone::app

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "lodestone/app/describe.h"
@@ -14,11 +16,18 @@ std::string words(std::string key) {
   return key;
 }
 
+// No more digits than people read, and none fewer than a float has: JSON has them all.
+std::string number(const Json& value) {
+  std::string exact = value.dump(), rounded = fmt::format("{:.7g}", value.get<double>());
+  return rounded.size() < exact.size() && exact.size() > 8 ? rounded : exact;
+}
+
 // On one line: numbers and texts as they are, arrays and objects in brackets.
 std::string inline_text(const Json& value) {
   if (value.is_string()) return plain_line(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_null()) return "none";
+  if (value.is_number_float()) return number(value);
   if (!value.is_structured()) return value.dump();
   if (value.empty()) return "none";
   std::string text;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <queue>
 
+#include "lodestone/mesh/point_triangle.h"
+
 namespace lodestone::base_complex {
 namespace {
 
@@ -49,13 +51,11 @@ class Curve {
   };
   Farthest farthest(double from, double to) const {
     const glm::dvec3 a = at(from), chord = at(to) - a;
-    const double length2 = glm::dot(chord, chord);
     Farthest found;
     const auto [first, last] = between(from, to);
     for (size_t p = first; p < last; ++p) {
       const glm::dvec3 from_a = position(p) - a;
-      const double t = length2 > 0 ? std::clamp(glm::dot(from_a, chord) / length2, 0.0, 1.0) : 0.0;
-      const glm::dvec3 off = from_a - t * chord;
+      const glm::dvec3 off = mesh::offset_from_segment(from_a, chord);
       const double distance = firm_ ? glm::length(off) : off_the_surface(off, p);
       if (distance > found.distance) found = {distance, p};
     }

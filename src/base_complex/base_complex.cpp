@@ -8,6 +8,7 @@
 #include "lodestone/base/parallel.h"
 #include "lodestone/base_complex/corners.h"
 #include "lodestone/base_complex/nodes.h"
+#include "lodestone/mesh/point_triangle.h"
 
 namespace lodestone::base_complex {
 namespace {
@@ -74,9 +75,7 @@ double distance_to(const HalfEdgeMesh& mesh, const Arc& arc, const glm::dvec3& p
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i + 1 < arc.points.size(); ++i) {
     const glm::dvec3 a = mesh.position(arc.points[i]), edge = mesh.position(arc.points[i + 1]) - a;
-    const double square = glm::dot(edge, edge);
-    const double t = square > 0 ? std::clamp(glm::dot(point - a, edge) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, glm::distance(point, a + t * edge));
+    least = std::min(least, glm::length(mesh::offset_from_segment(point - a, edge)));
   }
   return least;
 }

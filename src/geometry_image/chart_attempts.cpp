@@ -12,6 +12,8 @@ namespace {
 // Attempts end when so many have brought nothing better, or after so many in all; after a few where what is
 // still too far is to be split.
 constexpr uint32_t patience = 10, most_attempts = 16, few_attempts = 3;
+// Where more than one in so many cells is too far, the budget is to blame and not the cells.
+constexpr size_t few_of_all = 4;
 constexpr double apart = 2;  // in tolerances, the points that are measured
 // Cells of fewer faces are not split for an uneven map, that is, one whose stretch has a larger root mean
 // square, as where a limb was to be flattened; nor for being too far.
@@ -64,7 +66,7 @@ ChartAttempts::Outcome ChartAttempts::run(const Limits& limits) {
     const bool learnt = feedback_.learn(sizes, errors);
     if (limits.near && (!learnt || attempt + 1 >= few_attempts)) {
       std::vector<uint32_t> list = worth(feedback_.always_far(errors));
-      if (!list.empty()) return {Fault::far, std::move(list)};
+      if (!list.empty() && few_of_all * list.size() <= errors.size()) return {Fault::far, std::move(list)};
     }
     if (!learnt) break;
   }

@@ -36,7 +36,7 @@ bool is_long(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, doub
 // it takes that none is farther than `apart` from the next, but no more than some.
 template <class Check>
 void for_samples(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double apart, Check check) {
-  constexpr double most = 8;  // halves of them an edge
+  constexpr double most = 4;  // halves of them an edge
   const double longest = longest_edge(a, b, c);
   const int steps =
       is_long(a, b, c, apart) ? 2 * static_cast<int>(std::min(std::ceil(0.5 * longest / apart), most)) : 2;

@@ -25,7 +25,8 @@ class ChartErrors {
  public:
   // The complex is one of the input's triangles, in their order. All must outlive it. Charts are measured
   // at the middles of their triangles and of their edges, and where these are farther than `apart` (at least
-  // 0) from each other at points between them; the input at corners and middles of triangles.
+  // 0) from each other at points between them; the input at corners and middles of triangles, and long ones
+  // likewise at points between.
   ChartErrors(const base_complex::BaseComplex& complex, const mesh::Surface& input,
               const mesh::TriangleTree& input_tree, double apart);
 

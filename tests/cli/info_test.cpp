@@ -68,6 +68,38 @@ TEST_F(Info, OfABakedFileIsThatOfItsScene) {
   EXPECT_EQ(baked["source"], (Json{{"scene", "builtin:tiny"}, {"asked_atlas", "auto"}}));
 }
 
+TEST_F(Info, OfABakedFileMeasuresItsDistanceToTheScene) {
+  const std::vector<std::string> charts = {"--atlas", "charts", "--texel-budget", "500"};
+  std::vector<std::string> bake = {"bake", "builtin:spheres", "-o", place("s.lode")},
+                           info = {"info", "builtin:spheres"};
+  bake.insert(bake.end(), charts.begin(), charts.end());
+  info.insert(info.end(), charts.begin(), charts.end());
+  info.push_back("--json");
+  ASSERT_EQ(run(bake).code, 0);
+  const Json baked = json_of({"info", place("s.lode"), "--json"});
+  EXPECT_GT(baked["distance"]["hausdorff"].get<double>(), 0);
+  EXPECT_EQ(baked["distance"], json_of(info)["distance"]);
+  EXPECT_EQ(baked["distance_not_measured"], nullptr);
+}
+
+TEST_F(Info, OfABakedFileSaysWhyItsDistanceIsNotMeasured) {
+  write_text(place("t.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_EQ(run({"bake", place("t.obj"), "-o", place("t.lode")}).code, 0);
+  std::filesystem::remove(place("t.obj"));
+  const Json baked = json_of({"info", place("t.lode"), "--json"});
+  EXPECT_EQ(baked["distance"], nullptr);
+  EXPECT_NE(baked["distance_not_measured"].get<std::string>().find("t.obj"), std::string::npos);
+}
+
+TEST_F(Info, RoundsForPeopleAndNotForPrograms) {
+  const std::string text = run({"info", "builtin:spheres", "--atlas", "charts"}).out;
+  const size_t at = text.find("texels used percent: ");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LE(text.find('\n', at) - at, std::string("texels used percent: 12.34567").size());
+  const Json json = json_of({"info", "builtin:spheres", "--atlas", "charts", "--json"});
+  EXPECT_GT(json["atlas"]["texels_used_percent"].dump().size(), std::string("12.34567").size());
+}
+
 TEST_F(Info, BakingTwiceGivesEqualFiles) {
   ASSERT_EQ(run({"bake", "builtin:tiny", "-o", place("a.lode")}).code, 0);
   ASSERT_EQ(run({"bake", "builtin:tiny", "-o", place("b.lode"), "--threads", "1"}).code, 0);

@@ -116,9 +116,7 @@ std::vector<glm::dvec2> places(const geometry_image::Atlas& atlas, const std::ve
   const geometry_image::ChartMaps& maps = atlas.maps;
   std::vector<glm::dvec2> at(texels.size(), glm::dvec2(-1));
   for (size_t i = 0; i < texels.size(); ++i) {
-    const layout::ChartRecord& chart = atlas.charts[texels[i].w - 1];
-    const uint64_t own = i - chart.first_texel;
-    at[i] = {own % chart.width, own / chart.width};
+    at[i] = maps.sites[i].at;
     if (texels[i] == atlas.texel_map[i]) continue;
     const double b1 = std::bit_cast<float>(texels[i].y), b2 = std::bit_cast<float>(texels[i].z);
     double best = -1e30;

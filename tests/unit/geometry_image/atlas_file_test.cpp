@@ -100,7 +100,11 @@ TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
                "bake it again");
-  file[8] = std::byte(5);
+  file[8] = std::byte(5);  // before a kept map said where each texel is
+  sign(file);
+  expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
+               "bake it again");
+  file[8] = std::byte(6);
   file[12] = std::byte(2);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
