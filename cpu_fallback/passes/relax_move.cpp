@@ -20,19 +20,24 @@ class RelaxMove : public Kernel<Probe> {
     const Site own = load_site(texel);
     center_ = as_vec3(this->load(now_, texel));
     scale_ = 0;
+    const glm::vec2 own_rest = load_place_at_rest(texel);
+    glm::vec2 rest = own_rest * -6.0f;
     glm::vec2 sum(0);
     float weights = 0;
     for (uint32_t k = 0; k < layout::relax_neighbors; ++k) {
       const uint32_t neighbor = layout::relax_neighbor(texel, width, k);
       const Site site = load_site(neighbor);
       around_[k] = site.at;
+      rest = rest + load_place_at_rest(neighbor);
       points_[k] = as_vec3(this->load(now_, neighbor));
       scale_ = layout::max2(scale_, layout::largest_abs(layout::flush_tiny3(points_[k] - center_)));
       const float weight = own.weight + (site.face == layout::no_index ? own.weight : site.weight);
       sum = sum + site.at * weight;
       weights = weights + weight;
     }
-    glm::vec2 way = (glm::vec2(sum.x / weights, sum.y / weights) - own.at) * layout::relax_gain;
+    // Where the atlas has the texel beside the mean of its neighbours, to undo a fold, that is no way to go.
+    const glm::vec2 mean = glm::vec2(sum.x / weights, sum.y / weights) - own.at;
+    glm::vec2 way = (mean - rest * 0.16666667f) * layout::relax_gain;
     if (!is_long(way) || !(scale_ > 0)) return;
     for (glm::vec3& point : points_) point = layout::relax_seen(point, center_, scale_);
     // First the place where it is, then others.
@@ -72,6 +77,11 @@ class RelaxMove : public Kernel<Probe> {
     return {{layout::uintBitsToFloat(site.x), layout::uintBitsToFloat(site.y)},
             site.z,
             layout::uintBitsToFloat(site.w)};
+  }
+
+  glm::vec2 load_place_at_rest(uint32_t texel) {
+    const glm::uvec4 site = this->load(map_sites_, texel);
+    return {layout::uintBitsToFloat(site.x), layout::uintBitsToFloat(site.y)};
   }
 
   glm::vec2 load_point(uint32_t p) {
@@ -168,7 +178,7 @@ class RelaxMove : public Kernel<Probe> {
         rest_positions_ = this->quads(4), map_faces_ = this->quads(5);
   Words map_points_ = this->words(6), map_pieces_ = this->words(7);
   Quads relaxed_map_ = this->quads(8), sites_ = this->quads(9), now_ = this->quads(10),
-        was_ = this->quads(11);
+        was_ = this->quads(11), map_sites_ = this->quads(12);
   layout::RelaxPush push_ = this->template push<layout::RelaxPush>();
   // Of the texel at hand: where its neighbours are in the rectangle, and on the surface, seen from it.
   glm::vec2 around_[layout::relax_neighbors];

@@ -20,7 +20,8 @@ QUADS(8, restrict, relaxed_map);
 QUADS(9, restrict, sites);
 QUADS(10, restrict, now);
 QUADS(11, writeonly, was);
-COUNTERS(12)
+QUADS(12, readonly, map_sites);
+COUNTERS(13)
 PUSH(RelaxPush, push);
 
 struct Site {
@@ -38,6 +39,12 @@ struct Place {
 // Of the texel at hand: where its neighbours are in the rectangle, and on the surface, seen from it.
 vec2 around[6];
 vec3 points[6];
+
+vec2 load_place_at_rest(uint texel) {
+  uvec4 bits;
+  LOAD4(bits, map_sites, texel);
+  return vec2(uintBitsToFloat(bits.x), uintBitsToFloat(bits.y));
+}
 
 Site load_site(uint texel) {
   uvec4 bits;
@@ -131,6 +138,8 @@ void move(uint texel) {
   uvec4 chart;
   LOAD4(chart, charts, 2u * (source.w - 1u));
   Site own = load_site(texel);
+  vec2 own_rest = load_place_at_rest(texel);
+  vec2 rest = vec2(own_rest.x * -6.0, own_rest.y * -6.0);
   vec2 sum = vec2(0.0, 0.0);
   float weights = 0.0;
   uvec4 bits;
@@ -141,6 +150,7 @@ void move(uint texel) {
     uint neighbor = relax_neighbor(texel, chart.y, k);
     Site site = load_site(neighbor);
     around[k] = site.at;
+    rest = rest + load_place_at_rest(neighbor);
     LOAD4(bits, now, neighbor);
     points[k] = as_vec3(bits);
     scale = max2(scale, largest_abs(flush_tiny3(points[k] - center)));
@@ -150,7 +160,9 @@ void move(uint texel) {
     sum = sum + site.at * weight;
     weights = weights + weight;
   }
-  vec2 way = (vec2(sum.x / weights, sum.y / weights) - own.at) * relax_gain;
+  // Where the atlas has the texel beside the mean of its neighbours, to undo a fold, that is no way to go.
+  vec2 mean = vec2(sum.x / weights, sum.y / weights) - own.at;
+  vec2 way = (mean - rest * 0.16666667) * relax_gain;
   if (!is_long(way) || !(scale > 0.0)) return;
   for (uint k = 0u; k < relax_neighbors; ++k) points[k] = relax_seen(points[k], center, scale);
   // First the place where it is, then others. (The search stands here once: SwiftShader takes minutes to compile many.)

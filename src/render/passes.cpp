@@ -34,7 +34,8 @@ constexpr Binding relax_move_bindings[] = {
     {"inner_texels", word, read}, {"charts", quad, read},         {"triangles", quad, read},
     {"positions", quad, read},    {"rest_positions", quad, read}, {"map_faces", quad, read},
     {"map_points", word, read},   {"map_pieces", word, read},     {"relaxed_map", quad, read_write},
-    {"sites", quad, read_write},  {"now", quad, read_write},      {"was", quad, write}};
+    {"sites", quad, read_write},  {"now", quad, read_write},      {"was", quad, write},
+    {"map_sites", quad, read}};
 
 constexpr Binding rasterise_bindings[] = {{"texel_map", quad, read}, {"triangles", quad, read},
                                           {"positions", quad, read}, {"normals", quad, read},

@@ -40,18 +40,10 @@ void Relaxation::run(BufferId positions, uint32_t sweeps) {
   backend_.run({&passes::relax_begin, begin, std::as_bytes(std::span(&all, 1)), texels_, {}});
   const std::vector<BufferId> measure = {inner_texels_.id(), tables_.charts.id(), texel_map_.id(),
                                          now_.id(),          was_.id(),           sites_.id()};
-  const std::vector<BufferId> move = {inner_texels_.id(),
-                                      tables_.charts.id(),
-                                      tables_.triangles.id(),
-                                      positions,
-                                      rest_positions_.id(),
-                                      map_faces_.id(),
-                                      map_points_.id(),
-                                      map_pieces_.id(),
-                                      texel_map_.id(),
-                                      sites_.id(),
-                                      now_.id(),
-                                      was_.id()};
+  const std::vector<BufferId> move = {
+      inner_texels_.id(), tables_.charts.id(), tables_.triangles.id(), positions,       rest_positions_.id(),
+      map_faces_.id(),    map_points_.id(),    map_pieces_.id(),       texel_map_.id(), sites_.id(),
+      now_.id(),          was_.id(),           map_sites_.id()};
   const auto inner = static_cast<uint32_t>(inner_.texels.size());
   for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
     run_on(passes::relax_measure, measure, 0, inner);
