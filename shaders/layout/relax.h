@@ -5,9 +5,9 @@
 //
 // A sweep is two steps. `relax_measure` gives each texel a weight: how much more than in the rest pose the
 // geometry image bends and stretches there. `relax_move` draws a texel to the mean of its neighbours by their
-// weights (or as far beside it as the atlas has the texel, where that undoes a fold), and leaves it there if the
-// triangles round it are nearer to the surface than before. In the rest pose all weights are 1 and nothing
-// moves.
+// weights (or as far beside it as the atlas has the texel, where that undoes a fold), and leaves it there if
+// the triangles round it are nearer to the surface than before. In the rest pose all weights are 1 and
+// nothing moves.
 //
 // Buffers. Map faces, two quads each: { three points, counterclockwise; triangle of the scene }, { the face
 // behind the edge from corner k to the next, no_index: none; the piece }. Map points: two words each. Map
