@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "lodestone/geometry_image/map_lookup.h"
 #include "lodestone/geometry_image/chart_sizes.h"
+#include "lodestone/geometry_image/map_lookup.h"
 
 namespace lodestone::geometry_image {
 
