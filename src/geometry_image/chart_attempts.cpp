@@ -58,7 +58,7 @@ ChartAttempts::Outcome ChartAttempts::run(const Limits& limits) {
     stage("errors");
     const std::vector<double> errors = measure();
     const double bad = feedback_.badness(errors);
-    if (bad < badness_) {
+    if (!exist() || bad < badness_) {
       badness_ = bad;
       best_attempt = attempt;
       best_sizes_ = sizes;

@@ -50,7 +50,9 @@ class ChartAttempts {
   };
   Outcome run(const Limits& limits);
 
-  // Of the best attempt, the less the better; infinite where there is none.
+  // Whether any attempt made charts.
+  bool exist() const { return !best_sizes_.empty(); }
+  // Of the best attempt, the less the better.
   double badness() const { return badness_; }
   // What each chart has been found to need, for attempts at a complex that is mostly the same.
   const std::vector<double>& found() const { return feedback_.need().found; }

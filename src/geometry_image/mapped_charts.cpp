@@ -123,7 +123,7 @@ class ChartMaker {
       const std::vector<uint32_t> to_split = try_cells(mesh, cells, progress);
       const uint32_t stuck =
           to_split.empty() ? base_complex::none : split(mesh, cells, to_split, round < most_rounds);
-      if (to_split.empty() || (stuck != base_complex::none && progress.has_charts())) {
+      if (to_split.empty() || (stuck != base_complex::none && progress.best)) {
         result = progress.best->finish();
         return true;
       }
@@ -163,8 +163,6 @@ class ChartMaker {
     RoundsLeft left;
     std::unique_ptr<ChartAttempts> best;
     std::vector<double> found;  // of the charts of the last round, as Need::found
-
-    bool has_charts() const { return best && std::isfinite(best->badness()); }
   };
 
   // Makes charts of the cells, the best of all so far. Returns cells to split for a better try: those that
@@ -204,7 +202,8 @@ class ChartMaker {
       progress.found = attempts->found();
       for (const uint32_t c : outcome.cells) progress.found[c] = 0;
     }
-    if (!progress.best || attempts->badness() < progress.best->badness()) progress.best = std::move(attempts);
+    const bool better = !progress.best || attempts->badness() < progress.best->badness();
+    if (attempts->exist() && better) progress.best = std::move(attempts);
     return outcome.cells;
   }
 
