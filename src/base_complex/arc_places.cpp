@@ -5,42 +5,21 @@
 #include <cmath>
 #include <queue>
 
+#include "lodestone/base_complex/arc_curve.h"
 #include "lodestone/mesh/point_triangle.h"
 
 namespace lodestone::base_complex {
 namespace {
 
-// An arc as a curve by distance.
-class Curve {
+// And how far the polyline through some of its places is from it.
+class Curve : public ArcCurve {
  public:
   Curve(const BaseComplex& complex, const Arc& arc)
-      : mesh_(complex.mesh),
+      : ArcCurve(complex.mesh, arc),
         normals_(complex.normals),
         points_(arc.points),
         room_(arc.room),
-        firm_(arc.firm) {
-    along_.push_back(0);
-    for (size_t i = 1; i < points_.size(); ++i)
-      along_.push_back(along_.back() + glm::distance(position(i - 1), position(i)));
-  }
-
-  double length() const { return along_.back(); }
-  size_t points() const { return points_.size(); }
-  double along(size_t point) const { return along_[point]; }
-  // The points with distances above `low` and below `high`.
-  std::pair<size_t, size_t> between(double low, double high) const {
-    const auto first = std::upper_bound(along_.begin(), along_.end(), low);
-    const auto last = std::lower_bound(first, along_.end(), high);
-    return {size_t(first - along_.begin()), size_t(last - along_.begin())};
-  }
-
-  glm::dvec3 at(double distance) const {
-    const auto behind = std::upper_bound(along_.begin(), along_.end(), distance);
-    const size_t i = std::clamp<size_t>(size_t(behind - along_.begin()), 1, along_.size() - 1);
-    const double step = along_[i] - along_[i - 1];
-    const double t = step > 0 ? (distance - along_[i - 1]) / step : 0.0;
-    return position(i - 1) * (1 - t) + position(i) * t;
-  }
+        firm_(arc.firm) {}
 
   // The point between two places that is farthest from the chord between them, and how far it is. Where the
   // arc is not firm what is across the surface counts, and what is along it only where that leads over a firm
@@ -63,20 +42,16 @@ class Curve {
   }
 
  private:
-  const glm::dvec3& position(size_t i) const { return mesh_.position(points_[i]); }
-
   double off_the_surface(const glm::dvec3& off, size_t point) const {
     const glm::dvec3& normal = normals_[points_[point]];
     const double across = glm::dot(off, normal);
     return std::max(std::abs(across), glm::length(off - across * normal) - room_[point]);
   }
 
-  const HalfEdgeMesh& mesh_;
   const std::vector<glm::dvec3>& normals_;
   const std::vector<uint32_t>& points_;
   const std::vector<double>& room_;
   bool firm_;
-  std::vector<double> along_;
 };
 
 // Where the arc bends most, until no point is far from the polyline or `most` places are taken; the ends are

@@ -4,26 +4,19 @@
 #include <algorithm>
 #include <limits>
 
+#include "lodestone/base_complex/arc_curve.h"
 #include "lodestone/mesh/point_triangle.h"
 
 namespace lodestone::base_complex {
 namespace {
 
 // The mean of an arc around `middle`, weighted from 0 at `from` and `to` to most in the middle.
-glm::dvec3 mean_around(const HalfEdgeMesh& mesh, const Arc& arc, const std::vector<double>& along,
-                       double from, double middle, double to) {
+glm::dvec3 mean_around(const ArcCurve& arc, double from, double middle, double to) {
   constexpr int steps = 8;  // on either side
-  const auto at = [&](double distance) {
-    const auto behind = std::upper_bound(along.begin(), along.end(), distance);
-    const size_t i = std::clamp<size_t>(size_t(behind - along.begin()), 1, along.size() - 1);
-    const double step = along[i] - along[i - 1];
-    const double t = step > 0 ? (distance - along[i - 1]) / step : 0.0;
-    return mesh.position(arc.points[i - 1]) * (1 - t) + mesh.position(arc.points[i]) * t;
-  };
-  glm::dvec3 sum = at(middle) * double(steps);
+  glm::dvec3 sum = arc.at(middle) * double(steps);
   for (int i = 1; i < steps; ++i) {
     const double t = double(i) / steps;
-    sum += (at(middle + t * (from - middle)) + at(middle + t * (to - middle))) * double(steps - i);
+    sum += (arc.at(middle + t * (from - middle)) + arc.at(middle + t * (to - middle))) * double(steps - i);
   }
   return sum / double(steps * steps);
 }
@@ -80,24 +73,19 @@ std::vector<PlaceOnFace> ArcSmoother::smooth(uint32_t index, const std::vector<d
   std::vector<PlaceOnFace> moved(places.size());
   const Arc& arc = complex_.arcs[index];
   if (arc.firm) return moved;
-  std::vector<double> along = {0};
-  for (size_t i = 1; i < arc.points.size(); ++i)
-    along.push_back(along.back() + glm::distance(complex_.mesh.position(arc.points[i - 1]),
-                                                 complex_.mesh.position(arc.points[i])));
+  const ArcCurve curve(complex_.mesh, arc);
   for (size_t i = 1; i + 1 < places.size(); ++i) {
     // The arc's points between the two places, and those next to them, but for the ends, around which there
     // may be other surfaces.
     const auto [from, to] = std::pair(places[i - 1], places[i + 1]);
-    const auto first =
-        std::max<size_t>(1, size_t(std::upper_bound(along.begin(), along.end(), from) - along.begin()) - 1);
-    const auto end = std::min<size_t>(
-        along.size() - 1, size_t(std::lower_bound(along.begin(), along.end(), to) - along.begin()) + 1);
+    const auto [after, before] = curve.between(from, to);
+    const size_t first = std::max<size_t>(1, after - 1), end = std::min(curve.points() - 1, before + 1);
     if (first >= end || !(from < to)) continue;
-    const glm::dvec3 mean = mean_around(complex_.mesh, arc, along, from, places[i], to);
+    const glm::dvec3 mean = mean_around(curve, from, places[i], to);
     double room = std::numeric_limits<double>::infinity(), far = 0;
     for (size_t p = first; p < end; ++p) {
       room = std::min(room, arc.room[p]);
-      far = std::max(far, glm::distance(mean, complex_.mesh.position(arc.points[p])));
+      far = std::max(far, glm::distance(mean, curve.position(p)));
     }
     if (far < room) moved[i] = nearest_face(arc, first, end, mean);
   }

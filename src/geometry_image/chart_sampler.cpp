@@ -88,12 +88,7 @@ SurfaceSample ChartSampler::at_point(uint32_t half_edge) const {
 SurfaceSample ChartSampler::on_passage(const Passage& passage, const std::vector<uint32_t>& run,
                                        uint32_t index) const {
   const ArcSample& sample = arc_samples_[passage.arc][index];
-  if (sample.moved.face != base_complex::none) {
-    const uint32_t f = 3 * sample.moved.face;
-    const glm::dvec3& w = sample.moved.barycentrics;
-    return make_sample(input_triangle(f), mesh_.barycentrics(f) * w.x + mesh_.barycentrics(f + 1) * w.y +
-                                              mesh_.barycentrics(f + 2) * w.z);
-  }
+  if (sample.moved.face != base_complex::none) return in_face(sample.moved.face, sample.moved.barycentrics);
   const uint32_t h = passage.backwards ? run[run.size() - 1 - sample.edge] : run[sample.edge];
   // A half-edge starts at the near end of the arc's edge, or at its far end where the passage runs backwards.
   if (sample.fraction == 0) return at_point(passage.backwards ? next(h) : h);
@@ -133,6 +128,12 @@ void ChartSampler::sample_border(uint32_t cell, std::vector<SurfaceSample>& samp
   }
 }
 
+SurfaceSample ChartSampler::in_face(uint32_t face, const glm::dvec3& at) const {
+  const uint32_t h = 3 * face;
+  return make_sample(input_triangle(h), mesh_.barycentrics(h) * at.x + mesh_.barycentrics(h + 1) * at.y +
+                                            mesh_.barycentrics(h + 2) * at.z);
+}
+
 Facet ChartSampler::facet(const SurfaceSample& sample) const {
   const auto& [a, b, c] = corners(sample.triangle);
   const glm::dvec3 &pa = mesh_.position(a), &pb = mesh_.position(b), &pc = mesh_.position(c);
@@ -161,11 +162,8 @@ ChartSamples ChartSampler::sample(uint32_t cell, const CellMap& map, Folds folds
   if (chart.folded && folds == Folds::unfold) unfold(complex_, cell, map, columns, facets, chart.points);
   for (size_t i = 0; i < chart.points.size(); ++i) {
     if (!is_inner(i)) continue;
-    const uint32_t h = 3 * complex_.cells[cell].faces[chart.points[i].face];
-    const glm::dvec3& at = chart.points[i].barycentrics;
-    chart.samples[i] =
-        make_sample(input_triangle(h), mesh_.barycentrics(h) * at.x + mesh_.barycentrics(h + 1) * at.y +
-                                           mesh_.barycentrics(h + 2) * at.z);
+    const FacePoint& point = chart.points[i];
+    chart.samples[i] = in_face(complex_.cells[cell].faces[point.face], point.barycentrics);
   }
   return chart;
 }

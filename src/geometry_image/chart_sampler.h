@@ -56,6 +56,7 @@ class ChartSampler {
   SurfaceSample at_point(uint32_t half_edge) const;
   SurfaceSample on_passage(const base_complex::Passage& passage, const std::vector<uint32_t>& run,
                            uint32_t index) const;
+  SurfaceSample in_face(uint32_t face, const glm::dvec3& at) const;
   Facet facet(const SurfaceSample& sample) const;
   void sample_border(uint32_t cell, std::vector<SurfaceSample>& samples) const;
 

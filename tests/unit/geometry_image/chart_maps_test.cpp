@@ -43,7 +43,12 @@ TEST(ChartMaps, AreThoseThatTheTexelsWereSampledBy) {
   const ChartMaps& maps = atlas.maps;
   uint64_t checked = 0;
   for (const uint32_t texel : inner_texels(atlas.charts).texels) {
+    const layout::ChartRecord& chart = atlas.charts[atlas.texel_map[texel].w - 1];
+    const uint32_t own = texel - chart.first_texel;
     const glm::vec2 at = maps.sites[texel].at;
+    // Nothing is folded here, so it is at its own point of the lattice.
+    EXPECT_NEAR(at.x, float(own % chart.width), 1e-4f);
+    EXPECT_NEAR(at.y, float(own / chart.width), 1e-4f);
     const layout::MapFace& face = maps.faces[maps.sites[texel].face];
     const glm::vec2 a = maps.points[face.points[0]], b = maps.points[face.points[1]],
                     c = maps.points[face.points[2]];

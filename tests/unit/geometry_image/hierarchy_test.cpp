@@ -79,9 +79,7 @@ TEST(Hierarchy, HoldsEveryQuadOnceAndEveryChartInASubtree) {
     const scene::Assembly assembly = scene::assemble(scene);
     for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact, AtlasKind::charts}) {
       for (const ChartOrder order : {ChartOrder::median, ChartOrder::hilbert}) {
-        AtlasSettings settings = kind;
-        if (kind != AtlasKind::exact) settings.charts.texel_budget = 4000;
-        const Atlas atlas = build_atlas(scene, assembly, settings, order);
+        const Atlas atlas = build_atlas(scene, assembly, kind, order);
         expect_every_quad_once(atlas);
         expect_charts_to_be_subtrees(atlas);
         EXPECT_EQ(find_fault(atlas), "");
