@@ -41,14 +41,13 @@ TEST(ChartMaps, ChangeNothingElseOfTheAtlas) {
 TEST(ChartMaps, AreThoseThatTheTexelsWereSampledBy) {
   const Atlas atlas = curved_sheet(true);
   const ChartMaps& maps = atlas.maps;
-  uint64_t checked = 0;
+  uint64_t checked = 0, beside_the_lattice = 0;
   for (const uint32_t texel : inner_texels(atlas.charts).texels) {
     const layout::ChartRecord& chart = atlas.charts[atlas.texel_map[texel].w - 1];
     const uint32_t own = texel - chart.first_texel;
     const glm::vec2 at = maps.sites[texel].at;
-    // Nothing is folded here, so it is at its own point of the lattice.
-    EXPECT_NEAR(at.x, float(own % chart.width), 1e-4f);
-    EXPECT_NEAR(at.y, float(own / chart.width), 1e-4f);
+    const glm::vec2 lattice(own % chart.width, own / chart.width);
+    beside_the_lattice += glm::distance(at, lattice) > 1e-4f ? 1 : 0;
     const layout::MapFace& face = maps.faces[maps.sites[texel].face];
     const glm::vec2 a = maps.points[face.points[0]], b = maps.points[face.points[1]],
                     c = maps.points[face.points[2]];
@@ -67,6 +66,7 @@ TEST(ChartMaps, AreThoseThatTheTexelsWereSampledBy) {
     ++checked;
   }
   EXPECT_GT(checked, 300u);
+  EXPECT_LT(100 * beside_the_lattice, checked) << "few, where quads were folded";
 }
 
 TEST(ChartMaps, NeverGiveTwoNeighboursOneColour) {
