@@ -39,6 +39,8 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/trace_wide", trace_wide},
       {"geometry_image/mask", mask},
       {"geometry_image/shade", shade},
+      {"geometry_image/ambient", ambient},
+      {"geometry_image/path", path},
       {"geometry_image/accumulate", accumulate},
       {"geometry_image/aov", aov},
       {"geometry_image/resolve", resolve},

@@ -19,6 +19,8 @@ void trace_threaded(const CpuDispatch& dispatch);
 void trace_octant(const CpuDispatch& dispatch);
 void mask(const CpuDispatch& dispatch);
 void shade(const CpuDispatch& dispatch);
+void ambient(const CpuDispatch& dispatch);
+void path(const CpuDispatch& dispatch);
 void accumulate(const CpuDispatch& dispatch);
 void aov(const CpuDispatch& dispatch);
 void resolve(const CpuDispatch& dispatch);

@@ -19,7 +19,6 @@ class Shade : public SurfaceKernel<Probe, source_count> {
   using SurfaceKernel<Probe, source_count>::SurfaceKernel;
 
   HWY_ATTR void operator()() {
-    const uvec1 index = this->own_index();
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
     const FrameRecord& frame = this->frames[0];
     const vec3 direction = as_vec3(along);
@@ -28,17 +27,14 @@ class Shade : public SurfaceKernel<Probe, source_count> {
     uvec4 contribution(0u, 0u, 0u, 0u), shadow_from = contribution;
     uvec4 shadow_along(0u, 0u, 0u, floatBitsToUint(vec1(-1.0f)));
     if (const Where here(*this, hit.w != no_index); here.any()) {
-      const Surface surface = surface_of(hit, direction);
+      const Surface surface = this->surface_of(hit, direction);
       emitted = select(this->active(), surface.emission, emitted);
       alpha = select(this->active(), 1.0f, alpha);
-      uvec1 px, py;
-      ray_pixel(push_.first_ray + index, frame.width, frame.height, px, py);
-      const vec2 xi =
-          sample_2d(frame.seed, py * frame.width + px, push_.sample_index, pair_sky + push_.light);
+      const vec2 xi = this->draw(push_, pair_sky + push_.light);
       const LightSample light = sample_light(lights_[push_.light], frame, surface, xi);
       const bvec1 lit = this->active() && dot3(light.direction, surface.geometric) > 0.0f &&
                         max_component(light.radiance) > 0.0f;
-      const Ray shadow = shadow_ray(surface, light);
+      const Ray shadow = leaving_ray(surface, light.direction, 1.0f, light.distance);
       contribution = select(lit, as_bits(light.radiance, 0u), contribution);
       shadow_from = select(lit, as_bits(shadow.origin, floatBitsToUint(shadow.tmin)), shadow_from);
       shadow_along = select(lit, as_bits(shadow.direction, floatBitsToUint(shadow.tmax)), shadow_along);
@@ -55,18 +51,6 @@ class Shade : public SurfaceKernel<Probe, source_count> {
   }
 
  private:
-  HWY_ATTR Surface surface_of(const uvec4& hit, const vec3& direction) {
-    const auto point = this->locate_hit(hit);
-    Surface surface;
-    bool first = true;
-    this->for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
-      const Surface here = this->surface_at(material, point, direction);
-      surface = first ? here : select(this->active(), here, surface);
-      first = false;
-    });
-    return surface;
-  }
-
   Quads rays_ = this->quads(16);
   Structs<LightRecord> lights_ = this->template structs<LightRecord>(17);
   Quads contributions_ = this->quads(18), shadow_rays_ = this->quads(19), radiance_ = this->quads(20);

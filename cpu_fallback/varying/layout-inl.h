@@ -14,6 +14,7 @@
 
 #include "lodestone/cpu_fallback/varying/numbers-inl.h"
 #include "lodestone/layout/camera.h"
+#include "lodestone/layout/path.h"
 #include "lodestone/layout/ray_state.h"
 #include "lodestone/layout/shading.h"
 
@@ -24,7 +25,9 @@ using namespace layout;  // behind what is declared here
 
 #undef LODESTONE_LAYOUT_ARITHMETIC_H
 #undef LODESTONE_LAYOUT_ATLAS_H
+#undef LODESTONE_LAYOUT_BSDF_H
 #undef LODESTONE_LAYOUT_CAMERA_H
+#undef LODESTONE_LAYOUT_PATH_H
 #undef LODESTONE_LAYOUT_RAY_H
 #undef LODESTONE_LAYOUT_RAY_STATE_H
 #undef LODESTONE_LAYOUT_SAMPLING_H
@@ -33,7 +36,9 @@ using namespace layout;  // behind what is declared here
 #define LODESTONE_LAYOUT_BEGIN namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 #include "lodestone/layout/arithmetic.h"
 #include "lodestone/layout/atlas.h"
+#include "lodestone/layout/bsdf.h"
 #include "lodestone/layout/camera.h"
+#include "lodestone/layout/path.h"
 #include "lodestone/layout/ray.h"
 #include "lodestone/layout/ray_state.h"
 #include "lodestone/layout/sampling.h"

@@ -261,6 +261,9 @@ HWY_ATTR inline vec3 operator/(const vec3& a, const vec3& b) {
 HWY_ATTR inline vec3 operator*(const vec3& a, vec1 b) {
   return {a.x * b, a.y * b, a.z * b};
 }
+HWY_ATTR inline vec3 operator/(const vec3& a, vec1 b) {
+  return {a.x / b, a.y / b, a.z / b};
+}
 
 struct vec4 {
   vec1 x, y, z, w;

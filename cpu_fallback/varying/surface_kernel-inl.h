@@ -14,6 +14,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
+HWY_ATTR inline Ray select(bvec1 condition, const Ray& yes, const Ray& no) {
+  return {select(condition, yes.origin, no.origin), select(condition, yes.tmin, no.tmin),
+          select(condition, yes.direction, no.direction), select(condition, yes.tmax, no.tmax)};
+}
+
 HWY_ATTR inline Surface select(bvec1 condition, const Surface& yes, const Surface& no) {
   Surface s;
   s.position = select(condition, yes.position, no.position);
@@ -76,6 +81,28 @@ class SurfaceKernel : public VaryingKernel<Probe> {
       count_read(24);
       body(part, materials[part.material]);
     });
+  }
+
+  // Numbers of the sequence `pair` for the pixel of each invocation; `push` says which rays and which sample.
+  template <class Push>
+  HWY_ATTR vec2 draw(const Push& push, uint pair) const {
+    const FrameRecord& frame = frames[0];
+    uvec1 px, py;
+    ray_pixel(push.first_ray + this->own_index(), frame.width, frame.height, px, py);
+    return sample_2d(frame.seed, py * frame.width + px, push.sample_index, pair);
+  }
+
+  // What the active invocations' rays along `direction` have hit.
+  HWY_ATTR Surface surface_of(const uvec4& hit, const vec3& direction) {
+    const SurfacePoint point = locate_hit(hit);
+    Surface surface;
+    bool first = true;
+    for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
+      const Surface here = surface_at(material, point, direction);
+      surface = first ? here : select(this->active(), here, surface);
+      first = false;
+    });
+    return surface;
   }
 };
 

@@ -42,7 +42,7 @@ void main() {
     vec2 xi = sample_2d(frame.seed, py * frame.width + px, push.sample_index, pair_sky + push.light);
     LightSample light = sample_light(lights[push.light], frame, surface, xi);
     if (dot3(light.direction, surface.geometric) > 0.0 && max_component(light.radiance) > 0.0) {
-      Ray shadow = shadow_ray(surface, light);
+      Ray shadow = leaving_ray(surface, light.direction, 1.0, light.distance);
       contribution = as_bits(light.radiance, 0u);
       shadow_from = as_bits(shadow.origin, floatBitsToUint(shadow.tmin));
       shadow_along = as_bits(shadow.direction, floatBitsToUint(shadow.tmax));

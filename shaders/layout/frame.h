@@ -22,7 +22,11 @@ struct FrameRecord {
   vec3 sky_horizon;
   uint filmic;
   vec3 sky_bottom;
-  float exposure;  // 2^stops
+  float exposure;   // 2^stops
+  vec3 lens_right;  // half axes of the lens; 0: a pinhole
+  float focus;      // along `forward`: where what lies is sharp
+  vec3 lens_up;
+  uint pad0;
 };
 
 CONST uint light_directional = 0u;
@@ -94,8 +98,30 @@ struct RayPush {
   uint rays;
   uint sample_index;
   uint centered;  // 1: through pixel centres
+  uint pinhole;   // 1: through the middle of the lens
   uint light;
   uint first;  // 1: the pass starts a sum, 0: it adds to one
+};
+
+// Ambient occlusion of a batch.
+struct AmbientPush {
+  uint first_ray;
+  uint rays;
+  uint sample_index;
+  uint first;      // 1: the pass starts a sum, 0: it adds to one
+  float distance;  // beyond which nothing occludes
+};
+
+// One vertex of each path of a batch, or of what else goes from surface to surface.
+struct PathPush {
+  uint first_ray;
+  uint rays;
+  uint sample_index;
+  uint vertex;       // 0: where the camera's ray ends
+  uint last_vertex;  // from which nothing goes on
+  uint lights;
+  uint sky_lights;  // how many of them are the sky: 0 or 1
+  uint first;       // 1: the pass starts a sum, 0: it adds to one
 };
 
 struct ResolvePush {

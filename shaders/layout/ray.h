@@ -13,6 +13,15 @@ struct Ray {
   vec1 tmax;  // ... and not beyond tmax; negative: no ray
 };
 
+FN Ray no_ray() {
+  Ray ray;
+  ray.origin = vec3(0.0f, 0.0f, 0.0f);
+  ray.tmin = 0.0f;
+  ray.direction = vec3(0.0f, 0.0f, 0.0f);
+  ray.tmax = -1.0f;
+  return ray;
+}
+
 // From its two quads in a buffer. One that is not finite is no ray: it would pass comparisons with bounds by
 // chance.
 FN Ray stored_ray(uvec4 from, uvec4 along) {

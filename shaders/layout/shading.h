@@ -73,6 +73,15 @@ FN vec3 sky_radiance(IN(FrameRecord) frame, vec3 direction) {
   return mix3(frame.sky_horizon, far, sqrt(abs1(up)));
 }
 
+// A direction to the sky, all alike.
+CONST float sky_density = 0.0795774715f;  // of each, per solid angle: 1 / (4 pi)
+FN vec3 sample_sky(vec2 xi) {
+  vec1 height = 1.0f - 2.0f * xi.x;
+  vec1 radius = sqrt(max2(1.0f - height * height, 0.0f));
+  vec2 turn = cos_sin_turns(xi.y);
+  return flush_tiny3(vec3(radius * turn.x, height, radius * turn.y));
+}
+
 struct Surface {
   vec3 position;
   vec1 reach;      // the largest number in its rounding: a coordinate, or the way to a corner of its triangle
@@ -123,24 +132,35 @@ FN vec3 reflected(IN(Surface) s, vec3 to_light) {
   return select(lit, sent, vec3(0.0f, 0.0f, 0.0f));
 }
 
-// A direction around `axis`, cosine-distributed (Malley; the disc by Shirley and Chiu's concentric map).
-FN vec3 cosine_direction(vec3 axis, vec2 xi) {
+// Two unit vectors that make a frame with `axis` (Duff et al. 2017, "Building an orthonormal basis,
+// revisited").
+FN void orthonormal_basis(vec3 axis, OUT(vec3) tangent, OUT(vec3) bitangent) {
+  vec1 side = select(axis.z < 0.0f, -1.0f, 1.0f);
+  vec1 p = -1.0f / (side + axis.z);
+  vec1 q = axis.x * axis.y * p;
+  tangent = vec3(1.0f + side * axis.x * axis.x * p, side * q, -side * axis.x);
+  bitangent = vec3(q, side + axis.y * axis.y * p, -axis.y);
+}
+
+// A point of the unit disc, uniformly distributed (Shirley and Chiu's concentric map).
+FN vec2 concentric_disc(vec2 xi) {
   vec1 x = 2.0f * xi.x - 1.0f;
   vec1 y = 2.0f * xi.y - 1.0f;
   bvec1 wide = abs1(x) > abs1(y);
   vec1 radius = select(wide, x, y);
   vec1 ratio = select(radius == 0.0f, 0.0f, select(wide, y, x) / radius);
   vec2 turn = cos_sin_turns(select(wide, ratio * 0.125f, 0.25f - ratio * 0.125f));
-  vec1 disc_x = radius * turn.x;
-  vec1 disc_y = radius * turn.y;
-  vec1 height = sqrt(max2(1.0f - disc_x * disc_x - disc_y * disc_y, 0.0f));
-  // A frame around the axis (Duff et al. 2017, "Building an orthonormal basis, revisited").
-  vec1 side = select(axis.z < 0.0f, -1.0f, 1.0f);
-  vec1 p = -1.0f / (side + axis.z);
-  vec1 q = axis.x * axis.y * p;
-  vec3 tangent = vec3(1.0f + side * axis.x * axis.x * p, side * q, -side * axis.x);
-  vec3 bitangent = vec3(q, side + axis.y * axis.y * p, -axis.y);
-  return normalize_or(tangent * disc_x + bitangent * disc_y + axis * height, axis);
+  return vec2(radius * turn.x, radius * turn.y);
+}
+
+// A direction around `axis`, cosine-distributed (Malley).
+FN vec3 cosine_direction(vec3 axis, vec2 xi) {
+  vec2 disc = concentric_disc(xi);
+  vec1 height = sqrt(max2(1.0f - disc.x * disc.x - disc.y * disc.y, 0.0f));
+  vec3 tangent;
+  vec3 bitangent;
+  orthonormal_basis(axis, tangent, bitangent);
+  return normalize_or(tangent * disc.x + bitangent * disc.y + axis * height, axis);
 }
 
 // The share of a sky of radiance 1 that the rough mirror part sends back (Karis 2014, "Physically based
@@ -159,6 +179,39 @@ FN vec3 sky_specular(IN(Surface) s) {
   return max3(color, vec3(0.0f, 0.0f, 0.0f));
 }
 
+// What arrives at a point from a light that has one direction.
+struct Arrival {
+  vec3 direction;  // unit length, to the light
+  vec1 distance;   // to where the shadow ray ends
+  vec1 falloff;    // times the light's colour: irradiance across the direction
+};
+
+FN Arrival arriving_light(IN(LightRecord) light, vec3 position, vec3 fallback) {
+  Arrival result;
+  result.distance = 1e30f;
+  result.falloff = 1.0f;
+  if (light.kind == light_directional) {
+    result.direction = light.direction * -1.0f;
+  } else {
+    vec3 to_light = light.position - position;
+    vec1 distance2 = dot3(to_light, to_light);
+    vec1 distance = sqrt(distance2);
+    result.direction = normalize_or(to_light, fallback);
+    result.distance = distance;
+    result.falloff = 1.0f / max2(distance2, 1e-8f);
+    if (light.range > 0.0f) {  // the window that KHR_lights_punctual recommends
+      vec1 x = distance / light.range;
+      vec1 x2 = x * x;
+      result.falloff = result.falloff * saturate(1.0f - x2 * x2);
+    }
+    if (light.kind == light_spot) {
+      vec1 cone = saturate(-dot3(light.direction, result.direction) * light.cone_scale + light.cone_offset);
+      result.falloff = result.falloff * cone * cone;
+    }
+  }
+  return result;
+}
+
 struct LightSample {
   vec3 direction;  // unit length, from the surface
   vec1 distance;   // to where the shadow ray ends
@@ -167,11 +220,9 @@ struct LightSample {
 
 FN LightSample sample_light(IN(LightRecord) light, IN(FrameRecord) frame, IN(Surface) s, vec2 xi) {
   LightSample result;
-  result.radiance = vec3(0.0f, 0.0f, 0.0f);
-  result.direction = s.normal;
-  result.distance = 1e30f;
   if (light.kind == light_sky) {
     result.direction = cosine_direction(s.normal, xi);
+    result.distance = 1e30f;
     vec3 mirror = s.normal * (2.0f * dot3(s.normal, s.view)) - s.view;
     vec3 f = sky_specular(s);
     result.radiance =
@@ -180,40 +231,24 @@ FN LightSample sample_light(IN(LightRecord) light, IN(FrameRecord) frame, IN(Sur
         s.occlusion;
     return result;
   }
-  vec1 falloff = 1.0f;
-  if (light.kind == light_directional) {
-    result.direction = light.direction * -1.0f;
-  } else {
-    vec3 to_light = light.position - s.position;
-    vec1 distance2 = dot3(to_light, to_light);
-    vec1 distance = sqrt(distance2);
-    result.direction = normalize_or(to_light, s.normal);
-    result.distance = distance;
-    falloff = 1.0f / max2(distance2, 1e-8f);
-    if (light.range > 0.0f) {  // the window that KHR_lights_punctual recommends
-      vec1 x = distance / light.range;
-      vec1 x2 = x * x;
-      falloff = falloff * saturate(1.0f - x2 * x2);
-    }
-    if (light.kind == light_spot) {
-      vec1 cone = saturate(-dot3(light.direction, result.direction) * light.cone_scale + light.cone_offset);
-      falloff = falloff * cone * cone;
-    }
-  }
-  result.radiance = reflected(s, result.direction) * light.color * falloff;
+  Arrival arrival = arriving_light(light, s.position, s.normal);
+  result.direction = arrival.direction;
+  result.distance = arrival.distance;
+  result.radiance = reflected(s, arrival.direction) * light.color * arrival.falloff;
   return result;
 }
 
-// From just above the surface to just before the light. A position is off by less than 2^-21 of the surface's
-// reach (three products and their sum, each by half an ulp), and so is the t that traversal finds for the
-// triangle that it lies on.
-FN Ray shadow_ray(IN(Surface) s, IN(LightSample) light) {
+// A ray that leaves the surface on the side of the viewer (side 1) or on the other (-1), from beyond what
+// rounding may have moved it. A position is off by less than 2^-21 of the surface's reach (three products and
+// their sum, each by half an ulp), and so is the t that traversal finds for the triangle that it lies on.
+// `distance`: where it ends, again before what rounding may have moved.
+FN Ray leaving_ray(IN(Surface) s, vec3 direction, vec1 side, vec1 distance) {
   vec1 offset = s.reach * 1.9073486e-6f;  // 2^-19
   Ray ray;
-  ray.origin = flush_tiny3(s.position + s.geometric * offset);
+  ray.origin = flush_tiny3(s.position + s.geometric * (offset * side));
   ray.tmin = 0.0f;
-  ray.direction = light.direction;
-  ray.tmax = light.distance - 2.0f * offset;
+  ray.direction = direction;
+  ray.tmax = distance - 2.0f * offset;
   return ray;
 }
 

@@ -19,6 +19,7 @@ namespace {
 
 constexpr uint32_t max_spp = 65536;
 constexpr uint32_t max_sweeps = 1024;
+constexpr uint32_t max_bounces = 1024;
 constexpr uint32_t max_threads = 4096;
 constexpr uint32_t max_resolution = 32768;  // of all charts together: 2^30 texels
 
@@ -213,6 +214,44 @@ void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps)
       });
 }
 
+namespace {
+
+void add_integrator_options(CLI::App& app, PictureOptions& options) {
+  using render::Integrator;
+  static const std::map<std::string, Integrator> integrators = {
+      {"eye", Integrator::eye}, {"dof", Integrator::dof}, {"ao", Integrator::ao}, {"path", Integrator::path}};
+  add_value(app, "--integrator", "NAME",
+            "eye (direct light where the camera's rays end; default), dof (the same through a lens), ao "
+            "(ambient occlusion) or path (all light, by path tracing). All but eye want many --spp",
+            [&](const std::string& text) {
+              parse_choice("--integrator", text, {"eye", "dof", "ao", "path"});
+              options.integrator = integrators.at(text);
+            });
+  add_value(app, "--max-bounces", "N", "Surfaces that a path may go on from (default: 8)",
+            [&](const std::string& text) {
+              options.max_bounces = uint32_t(parse_count("--max-bounces", text, 0, max_bounces));
+            });
+  add_value(app, "--ao-distance", "X",
+            "With --integrator ao: what is farther than X scene units does not occlude (default: all does)",
+            [&](const std::string& text) {
+              options.ao_distance = float(parse_number("--ao-distance", text, 1e-9, 1e30));
+            });
+  add_value(app, "--lens-radius", "X",
+            "Radius of the camera's lens in scene units, with any integrator (default: 0, all is sharp; with "
+            "dof a 40th of the focus distance)",
+            [&](const std::string& text) {
+              options.lens_radius = float(parse_number("--lens-radius", text, 1e-9, 1e9));
+            });
+  add_value(app, "--focus-distance", "X",
+            "How far along the view direction things are sharp (default: what is nearest to the picture's "
+            "middle)",
+            [&](const std::string& text) {
+              options.focus_distance = float(parse_number("--focus-distance", text, 1e-9, 1e9));
+            });
+}
+
+}  // namespace
+
 void add_picture_options(CLI::App& app, PictureOptions& options) {
   add_size_option(app, options.size);
   add_value(app, "--spp", "N", "Samples a pixel (default: 1)",
@@ -223,6 +262,22 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
             "threaded, octant, wide (CPU only), or auto: the fastest of the device (default). All give the "
             "same hits",
             [&](const std::string& text) { options.traversal = parse_traversal("--traversal", text); });
+  add_integrator_options(app, options);
+}
+
+render::Settings picture_settings(const PictureOptions& options) {
+  render::Settings settings;
+  settings.width = options.size.width;
+  settings.height = options.size.height;
+  settings.spp = options.spp;
+  settings.seed = options.seed;
+  settings.traversal = options.traversal;
+  settings.integrator = options.integrator;
+  settings.max_bounces = options.max_bounces;
+  settings.ao_distance = options.ao_distance;
+  settings.lens_radius = options.lens_radius;
+  settings.focus_distance = options.focus_distance;
+  return settings;
 }
 
 std::vector<std::string> aov_names() {

@@ -70,13 +70,20 @@ struct PictureOptions {
   uint32_t seed = 0;
   std::string camera;  // empty: the first, or auto
   render::Traversal traversal = render::Traversal::automatic;
+  render::Integrator integrator = render::Integrator::eye;
+  uint32_t max_bounces = 8;
+  float ao_distance = 1e30f;
+  float lens_radius = 0, focus_distance = 0;  // 0: see render::Settings
 };
 // --relaxation-sweeps; where there are some, the atlas is to have the maps that they need.
 void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps);
 void add_size_option(CLI::App& app, Size& size);
 void add_seed_option(CLI::App& app, uint32_t& seed);
 void add_camera_option(CLI::App& app, std::string& camera);
-void add_picture_options(CLI::App& app, PictureOptions& options);  // those three, --spp and --traversal
+// Those three, --spp, --traversal, and the integrator with all that it takes.
+void add_picture_options(CLI::App& app, PictureOptions& options);
+// What they say of a picture.
+render::Settings picture_settings(const PictureOptions& options);
 render::Traversal parse_traversal(const std::string& option, const std::string& text);
 
 std::vector<std::string> aov_names();

@@ -82,13 +82,8 @@ std::vector<std::string> pass_names(const std::vector<PassDifference>& differenc
 
 // Every frame, all its channels. Throws Error(interrupted).
 void render_frames(const ParityOptions& options, const PreparedScene& prepared, render::Backend& backend) {
-  render::Settings settings;
-  settings.width = options.picture.size.width;
-  settings.height = options.picture.size.height;
+  render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
-  settings.spp = options.picture.spp;
-  settings.seed = options.picture.seed;
-  settings.traversal = options.picture.traversal;
   settings.aovs = aov_names();
   scene::Bounds bounds;
   if (prepared.needs_bounds(options.picture.camera)) bounds = prepared.bounds();

@@ -82,13 +82,8 @@ OutputPattern check(const RenderOptions& options) {
 }
 
 render::Settings settings_of(const RenderOptions& options) {
-  render::Settings settings;
-  settings.width = options.picture.size.width;
-  settings.height = options.picture.size.height;
+  render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
-  settings.spp = options.picture.spp;
-  settings.seed = options.picture.seed;
-  settings.traversal = options.picture.traversal;
   settings.view = options.view;
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
@@ -172,6 +167,7 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"scene", options_.scene.scene},
       {"tracer", measured_.tracer},
       {"traversal", to_string(renderer_->traversal())},
+      {"integrator", to_string(options_.picture.integrator)},
       {"seed", std::to_string(options_.picture.seed)},
       {"spp", std::to_string(options_.picture.spp)},
       {"frame", std::to_string(frame.frame)},

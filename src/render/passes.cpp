@@ -84,6 +84,21 @@ constexpr Binding shade_bindings[] = {SURFACE_BINDINGS,
                                       {"shadow_rays", quad, write},
                                       {"radiance", quad, read_write}};
 
+constexpr Binding ambient_bindings[] = {SURFACE_BINDINGS,
+                                        {"rays", quad, read},
+                                        {"contributions", quad, write},
+                                        {"shadow_rays", quad, write},
+                                        {"radiance", quad, read_write}};
+
+constexpr Binding path_bindings[] = {SURFACE_BINDINGS,
+                                     {"rays", quad, read_write},
+                                     {"lights", structs, read},
+                                     {"contributions", quad, write},
+                                     {"shadow_rays", quad, write},
+                                     {"radiance", quad, read_write},
+                                     {"paths", quad, read_write},
+                                     {"pending", structs, read_write}};
+
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
 
@@ -120,6 +135,8 @@ const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_bi
 const PassDecl occlude_wide{"occlude", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
+const PassDecl ambient{"shade", "geometry_image/ambient", ambient_bindings, sizeof(AmbientPush)};
+const PassDecl path{"shade", "geometry_image/path", path_bindings, sizeof(PathPush)};
 const PassDecl accumulate{"accumulate", "geometry_image/accumulate", accumulate_bindings, sizeof(CountPush)};
 const PassDecl aov{"aov", "geometry_image/aov", aov_bindings, sizeof(RayPush)};
 const PassDecl resolve{"resolve", "geometry_image/resolve", resolve_bindings, sizeof(ResolvePush)};

@@ -11,6 +11,6 @@ extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rast
     wide_nodes;
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, occlude_threaded, occlude_octant,
     occlude_wide;
-extern const PassDecl mask, shade, accumulate, aov, resolve;
+extern const PassDecl mask, shade, ambient, path, accumulate, aov, resolve;
 
 }  // namespace lodestone::render::passes

@@ -10,6 +10,7 @@
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/trace.h"
 #include "lodestone/render/film.h"
+#include "lodestone/render/focus.h"
 #include "lodestone/render/hierarchy_levels.h"
 #include "lodestone/render/passes.h"
 #include "lodestone/render/relaxation.h"
@@ -61,7 +62,8 @@ struct Renderer::State {
   Buffer frame, lights, pending;
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
-  Buffer contributions, radiance, beauty, display, aovs;
+  Buffer contributions, radiance, paths, beauty, display, aovs;
+  uint32_t light_count = 0, sky_lights = 0;
 
   State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
         const geometry_image::Atlas& atlas_in, const Settings& settings_in);
@@ -86,6 +88,8 @@ struct Renderer::State {
     return ids;
   }
 
+  bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
+
   // Of this frame.
   BufferId texel_map() const { return relaxation ? relaxation->texel_map() : tables.texel_map.id(); }
 
@@ -94,13 +98,19 @@ struct Renderer::State {
   void blend(const scene::Pose& pose, const Buffer& blended_positions);
   void update(const scene::Pose& pose);
   void build_bounds();
-  void begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count);
+  float find_focus(const View& view);
+  void begin_frame(const scene::Pose& pose, const View& view);
   bool trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
              const Interrupted& interrupted);
   bool trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
                     const Interrupted& interrupted);
   uint32_t take_pending();
-  bool render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count, const Interrupted& interrupted);
+  bool integrate(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool eye_sample(layout::RayPush push, const Interrupted& interrupted);
+  bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool add_unblocked(uint32_t count, const Interrupted& interrupted);
+  bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
 };
 
 Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -143,6 +153,7 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   shadow = RayBuffers(device, "shadow_", rays);
   contributions = Buffer(device, {"contributions", rays, 16});
   radiance = Buffer(device, {"radiance", rays, 16});
+  paths = Buffer(device, {"paths", settings.integrator == Integrator::path ? rays : 0, 16});
   beauty = Buffer(device, {"beauty", pixels, 16});
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
@@ -217,10 +228,24 @@ void Renderer::State::build_bounds() {
   }
 }
 
-void Renderer::State::begin_frame(const scene::Pose& pose, const View& view, uint32_t& light_count) {
+// By rays through a grid of points of the picture.
+float Renderer::State::find_focus(const View& view) {
+  const std::vector<glm::vec4> rays = focus_rays(view);
+  const auto count = static_cast<uint32_t>(rays.size() / 2);
+  const RayBuffers probes(backend, "focus_", count);
+  backend.upload(probes.rays.id(), std::as_bytes(std::span(rays)));
+  trace(probes, count, false, false, {});
+  std::vector<glm::uvec4> hits(count);
+  download_all(backend, probes.hits, hits);
+  return focus_of(view, rays, hits);
+}
+
+void Renderer::State::begin_frame(const scene::Pose& pose, const View& view) {
   scene::Sky sky;
   const auto records = frame_lights(scene, pose, view, sky);
   light_count = static_cast<uint32_t>(records.size());
+  sky_lights = static_cast<uint32_t>(std::count_if(
+      records.begin(), records.end(), [](const auto& record) { return record.kind == layout::light_sky; }));
   lights = make_buffer(backend, "lights", sizeof(layout::LightRecord), records);
   layout::FrameRecord record{};
   record.origin = view.origin;
@@ -237,6 +262,12 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view, uin
   record.sky_bottom = sky.bottom;
   record.filmic = settings.view == ViewTransform::filmic ? 1 : 0;
   record.exposure = std::exp2(settings.exposure);
+  if (has_lens()) {
+    record.focus = settings.focus_distance > 0 ? settings.focus_distance : find_focus(view);
+    const float radius = settings.lens_radius > 0 ? settings.lens_radius : record.focus / 40;
+    record.lens_right = glm::normalize(view.right) * radius;
+    record.lens_up = glm::normalize(view.up) * radius;
+  }
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
 }
 
@@ -284,30 +315,84 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool 
   return false;
 }
 
+// What the shadow rays carry, where nothing is in their way. False: interrupted.
+bool Renderer::State::add_unblocked(uint32_t count, const Interrupted& interrupted) {
+  if (!trace_masked(shadow, count, true, false, interrupted)) return false;
+  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
+      count);
+  return true;
+}
+
+// One sample of a batch whose rays have found what they hit: direct light. False: interrupted.
+bool Renderer::State::eye_sample(layout::RayPush push, const Interrupted& interrupted) {
+  for (uint32_t light = 0; light < light_count; ++light) {
+    push.light = light;
+    run(passes::shade,
+        surface_buffers(
+            primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
+        push, push.rays, {tables.sources});
+    if (!add_unblocked(push.rays, interrupted)) return false;
+  }
+  return true;
+}
+
+bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
+  run(passes::ambient,
+      surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
+      layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
+      rays.rays, {tables.sources});
+  return add_unblocked(rays.rays, interrupted);
+}
+
+// The same by path tracing, vertex by vertex, until no path is left.
+bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
+  const uint32_t zero = 0;
+  for (uint32_t vertex = 0;; ++vertex) {
+    const layout::PathPush push{
+        rays.first_ray,       rays.rays,   rays.sample_index, vertex,
+        settings.max_bounces, light_count, sky_lights,        vertex == 0 ? rays.first : 0};
+    backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
+    run(passes::path,
+        surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
+                                  radiance.id(), paths.id(), pending.id()}),
+        push, push.rays, {tables.sources});
+    const bool last = take_pending() == 0;
+    backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
+    if (!add_unblocked(push.rays, interrupted)) return false;
+    if (last) return true;
+    if (!trace_masked(primary, push.rays, false, false, interrupted)) return false;
+  }
+}
+
+bool Renderer::State::integrate(const layout::RayPush& rays, const Interrupted& interrupted) {
+  switch (settings.integrator) {
+    case Integrator::eye:
+    case Integrator::dof:
+      return eye_sample(rays, interrupted);
+    case Integrator::ao:
+      return ambient_sample(rays, interrupted);
+    case Integrator::path:
+      return path_sample(rays, interrupted);
+  }
+  return false;
+}
+
 // All samples of a run of pixels. False: interrupted.
-bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, uint32_t light_count,
-                                   const Interrupted& interrupted) {
+bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted) {
   if (!settings.aovs.empty()) {
-    const layout::RayPush push{first_ray, count, 0, 1, 0, 1};
+    const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, false, true, interrupted)) return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
         count, {tables.sources});
   }
   for (uint32_t sample = 0; sample < settings.spp; ++sample) {
-    layout::RayPush push{first_ray, count, sample, settings.spp == 1 ? 1u : 0u, 0, sample == 0 ? 1u : 0u};
+    const layout::RayPush push{
+        first_ray, count, sample, settings.spp == 1 ? 1u : 0u, has_lens() ? 0u : 1u,
+        0,         sample == 0 ? 1u : 0u};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, false, false, interrupted)) return false;
-    for (uint32_t light = 0; light < light_count; ++light) {
-      push.light = light;
-      run(passes::shade,
-          surface_buffers(
-              primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
-          push, count, {tables.sources});
-      if (!trace_masked(shadow, count, true, false, interrupted)) return false;
-      run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
-          count);
-    }
+    if (!integrate(push, interrupted)) return false;
   }
   run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()},
       layout::ResolvePush{first_ray, count}, count);
@@ -324,12 +409,11 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
                                             const std::function<bool()>& interrupted) {
   State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
-  uint32_t light_count = 0;
-  s.begin_frame(pose, view, light_count);
   s.update(pose);
+  s.begin_frame(pose, view);
   const uint32_t total = s.total_rays();
   for (uint32_t first = 0; first < total; first += batch_rays) {
-    if (!s.render_batch(first, std::min(batch_rays, total - first), light_count, interrupted)) {
+    if (!s.render_batch(first, std::min(batch_rays, total - first), interrupted)) {
       s.backend.finish();
       return std::nullopt;
     }
@@ -383,6 +467,11 @@ std::vector<glm::uvec4> Renderer::hits() {
   std::vector<glm::uvec4> hits(state_->loaded_rays);
   download_all(state_->backend, state_->loaded.hits, hits);
   return hits;
+}
+
+const char* to_string(Integrator integrator) {
+  const char* names[] = {"eye", "dof", "ao", "path"};
+  return names[static_cast<uint32_t>(integrator)];
 }
 
 const char* to_string(Traversal traversal) {

@@ -21,12 +21,20 @@ namespace lodestone::render {
 
 // `wide` is for the CPU only. `automatic` takes the fastest of the back end.
 enum class Traversal : uint32_t { automatic, threaded, octant, wide };
+// `eye`: direct light where the camera's rays end; `dof`: the same through a lens of some size. `ao`: ambient
+// occlusion there, 1 where nothing is near. `path`: all light, by path tracing.
+enum class Integrator : uint32_t { eye, dof, ao, path };
 enum class ViewTransform : uint32_t { filmic, linear };
 
 struct Settings {
   uint32_t width = 512, height = 512;
   uint32_t spp = 1;
   uint32_t seed = 0;
+  Integrator integrator = Integrator::eye;
+  uint32_t max_bounces = 8;   // surfaces that a path goes on from
+  float ao_distance = 1e30f;  // beyond which nothing occludes
+  float lens_radius = 0;      // scene units; 0: all is sharp, but with `dof`, which takes a 40th of the focus
+  float focus_distance = 0;   // along the view direction; 0: to what is nearest to the picture's middle
   Traversal traversal = Traversal::automatic;
   ViewTransform view = ViewTransform::filmic;
   float exposure = 0;             // stops
@@ -88,6 +96,7 @@ class Renderer {
 };
 
 const char* to_string(Traversal traversal);
+const char* to_string(Integrator integrator);
 
 // A back end that runs every pass on `device` and, on the very inputs the device had, on `reference`, and
 // compares what they wrote, word by word.
