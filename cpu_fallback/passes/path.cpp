@@ -78,7 +78,7 @@ class PathVertex : public SurfaceKernel<Probe, source_count> {
     if (!here.any()) return;
     const vec1 side_of_next = select(drawn.through, -1.0f, 1.0f);
     next_ = select(this->active(), leaving_ray(surface, drawn.direction, side_of_next, 1e30f), next_);
-    this->add(pending_, 0, this->active_count());
+    this->add(alive_, 0, this->active_count());
   }
 
   HWY_ATTR DrawnLight draw_light(const Surface& surface, vec1 choice, vec2 xi) {
@@ -110,7 +110,7 @@ class PathVertex : public SurfaceKernel<Probe, source_count> {
   Structs<LightRecord> lights_ = this->template structs<LightRecord>(17);
   Quads contributions_ = this->quads(18), shadow_rays_ = this->quads(19), radiance_ = this->quads(20),
         paths_ = this->quads(21);
-  Words pending_ = this->words(22);
+  Words alive_ = this->words(22);
   PathPush push_ = this->template push<PathPush>();
 
   // Of the invocations that run.

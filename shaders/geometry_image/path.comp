@@ -11,7 +11,7 @@ QUADS(18, writeonly, contributions);
 QUADS(19, writeonly, shadow_rays);
 QUADS(20, restrict, radiance);
 QUADS(21, restrict, paths);
-STRUCTS(22, restrict, uint, pending);
+STRUCTS(22, restrict, uint, alive);
 COUNTERS(23)
 PUSH(PathPush, push);
 
@@ -91,7 +91,7 @@ void main() {
     path = survived(path, push.vertex, choice.y);
     if (push.vertex < push.last_vertex && max_component(path.throughput) > 0.0) {
       next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
-      atomicAdd(pending[0], 1u);
+      atomicAdd(alive[0], 1u);
     }
   }
   store_ray(index, next);

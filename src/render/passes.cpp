@@ -97,7 +97,7 @@ constexpr Binding path_bindings[] = {SURFACE_BINDINGS,
                                      {"shadow_rays", quad, write},
                                      {"radiance", quad, read_write},
                                      {"paths", quad, read_write},
-                                     {"pending", structs, read_write}};
+                                     {"alive", structs, read_write}};
 
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};

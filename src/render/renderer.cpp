@@ -7,14 +7,12 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/layout/frame.h"
-#include "lodestone/layout/links.h"
-#include "lodestone/layout/trace.h"
 #include "lodestone/render/film.h"
 #include "lodestone/render/focus.h"
-#include "lodestone/render/hierarchy_levels.h"
 #include "lodestone/render/passes.h"
 #include "lodestone/render/relaxation.h"
 #include "lodestone/render/scene_tables.h"
+#include "lodestone/render/tracing.h"
 #include "lodestone/render/view.h"
 #include "lodestone/scene/pose_reach.h"
 
@@ -28,20 +26,7 @@ void download_all(Backend& backend, const Buffer& buffer, std::vector<T>& items)
   backend.download(buffer.id(), std::as_writable_bytes(std::span(items)), 0);
 }
 
-// The rays of one kind (primary, or to a light) and what they found.
-struct RayBuffers {
-  RayBuffers() = default;
-  RayBuffers(Backend& backend, const char* prefix, uint64_t count)
-      : rays(backend, {std::string(prefix) + "rays", 2 * count, 16}),
-        hits(backend, {std::string(prefix) + "hits", count, 16}),
-        states(backend, {std::string(prefix) + "states", count, 16}),
-        steps(backend, {std::string(prefix) + "steps", count, 4}) {}
-  Buffer rays, hits, states, steps;
-};
-
 }  // namespace
-
-using Interrupted = std::function<bool()>;
 
 struct Renderer::State {
   Backend& backend;
@@ -49,20 +34,18 @@ struct Renderer::State {
   const scene::Assembly& assembly;
   const geometry_image::Atlas& atlas;
   Settings settings;
-  Traversal traversal;
-  HierarchyLevels levels;
   SceneTables tables;
+  Tracing tracing;
   scene::PoseReach reach;
   std::optional<Relaxation> relaxation;
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
-  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map, nodes_lo, nodes_hi,
-      wide_nodes, links;
-  Buffer frame, lights, pending;
+  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map;
+  Buffer frame, lights;
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
-  Buffer contributions, radiance, paths, beauty, display, aovs;
+  Buffer contributions, radiance, paths, alive, beauty, display, aovs;
   uint32_t light_count = 0, sky_lights = 0;
 
   State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -93,23 +76,17 @@ struct Renderer::State {
   // Of this frame.
   BufferId texel_map() const { return relaxation ? relaxation->texel_map() : tables.texel_map.id(); }
 
-  void build_links();
   void prepare_relaxation();
   void blend(const scene::Pose& pose, const Buffer& blended_positions);
   void update(const scene::Pose& pose);
-  void build_bounds();
   float find_focus(const View& view);
   void begin_frame(const scene::Pose& pose, const View& view);
-  bool trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
-             const Interrupted& interrupted);
-  bool trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
-                    const Interrupted& interrupted);
-  uint32_t take_pending();
+  bool trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
   bool integrate(const layout::RayPush& rays, const Interrupted& interrupted);
   bool eye_sample(layout::RayPush push, const Interrupted& interrupted);
   bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool add_unblocked(uint32_t count, const Interrupted& interrupted);
   bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool add_unblocked(uint32_t count, const Interrupted& interrupted);
   bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
 };
 
@@ -120,16 +97,10 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       assembly(assembly_in),
       atlas(atlas_in),
       settings(settings_in),
-      traversal(settings_in.traversal),
-      levels(atlas_in.depth, static_cast<uint32_t>(atlas_in.leaf_map.size())),
       tables(device, scene_in, assembly_in, atlas_in),
+      tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget),
       reach(scene_in) {
   check_aovs(settings.aovs);
-  const bool cpu = device.info().kind == "cpu";
-  if (traversal == Traversal::automatic) traversal = cpu ? Traversal::wide : Traversal::octant;
-  if (traversal == Traversal::wide && !cpu) {
-    fail(ExitCode::usage, "--traversal wide", "runs on the CPU only; use threaded or octant on this device");
-  }
   const uint64_t vertices = assembly.positions.size(), texels = atlas.texel_map.size();
   weights = Buffer(device, {"weights", assembly.weight_count, 4});
   matrices = Buffer(device, {"matrices", 3 * uint64_t(assembly.matrix_count), 16});
@@ -138,14 +109,6 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   tangents = Buffer(device, {"tangents", vertices, 16});
   geometry = Buffer(device, {"geometry", texels, 16});
   normal_map = Buffer(device, {"normal_map", texels, 16});
-  nodes_lo = Buffer(device, {"nodes_lo", levels.nodes(), 16});
-  nodes_hi = Buffer(device, {"nodes_hi", levels.nodes(), 16});
-  if (traversal == Traversal::wide) {
-    const WideLevels wide(levels.depth(), levels.slots());
-    wide_nodes = Buffer(device, {"wide_nodes", wide.end(), wide_node_bytes});
-  }
-  links = Buffer(device, {"links", 2 * levels.nodes(), 4});
-  pending = Buffer(device, {"pending", 1, 4});
   frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
   const uint32_t rays = std::min(batch_rays, total_rays());
   const uint64_t pixels = uint64_t(settings.width) * settings.height;
@@ -154,10 +117,10 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   contributions = Buffer(device, {"contributions", rays, 16});
   radiance = Buffer(device, {"radiance", rays, 16});
   paths = Buffer(device, {"paths", settings.integrator == Integrator::path ? rays : 0, 16});
+  alive = Buffer(device, {"alive", 1, 4});
   beauty = Buffer(device, {"beauty", pixels, 16});
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
-  build_links();
   if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0) prepare_relaxation();
   setup = device.finish();
 }
@@ -171,16 +134,6 @@ void Renderer::State::prepare_relaxation() {
   Buffer rest_positions(backend, {"rest_positions", assembly.positions.size(), 16});
   blend(scene::evaluate(scene, scene::none, 0), rest_positions);
   relaxation.emplace(backend, tables, atlas, std::move(rest_positions));
-}
-
-void Renderer::State::build_links() {
-  for (uint32_t level = 0; level <= levels.depth(); ++level) {
-    // Only nodes above a slot in use: the siblings behind them are empty and never linked to.
-    const uint32_t shift = 2 * (levels.depth() - level);
-    const auto used = static_cast<uint32_t>((uint64_t(levels.slots()) + (uint64_t(1) << shift) - 1) >> shift);
-    run(passes::links, {tables.leaf_map.id(), links.id()},
-        layout::LinksPush{level, levels.depth(), used, levels.slots()}, used);
-  }
 }
 
 void Renderer::State::blend(const scene::Pose& pose, const Buffer& blended_positions) {
@@ -206,26 +159,7 @@ void Renderer::State::update(const scene::Pose& pose) {
   run(passes::rasterise,
       {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
       layout::CountPush{texels}, texels);
-  build_bounds();
-}
-
-void Renderer::State::build_bounds() {
-  const uint32_t depth = levels.depth();
-  run(passes::bounds_leaves, {tables.leaf_map.id(), geometry.id(), nodes_lo.id(), nodes_hi.id()},
-      layout::BoundsPush{depth, levels.slots(), levels.places(depth), levels.places(depth - 1)},
-      levels.places(depth - 1));
-  for (uint32_t level = depth - 1; level > 0;) {
-    const bool two = level >= 2;
-    const layout::BoundsPush push{level, levels.places(level), levels.places(level - 1),
-                                  two ? levels.places(level - 2) : 0};
-    run(passes::bounds, {nodes_lo.id(), nodes_hi.id()}, push, two ? push.written_above : push.written);
-    level -= two ? 2 : 1;
-  }
-  if (traversal == Traversal::wide) {
-    const WideLevels wide(depth, levels.slots());
-    run(passes::wide_nodes, {nodes_lo.id(), nodes_hi.id(), wide_nodes.id()},
-        layout::BoundsPush{depth, levels.slots(), 0, 0}, wide.end());
-  }
+  tracing.build(geometry);
 }
 
 // By rays through a grid of points of the picture.
@@ -234,7 +168,7 @@ float Renderer::State::find_focus(const View& view) {
   const auto count = static_cast<uint32_t>(rays.size() / 2);
   const RayBuffers probes(backend, "focus_", count);
   backend.upload(probes.rays.id(), std::as_bytes(std::span(rays)));
-  trace(probes, count, false, false, {});
+  tracing.trace(geometry, probes, count, {}, {});
   std::vector<glm::uvec4> hits(count);
   download_all(backend, probes.hits, hits);
   return focus_of(view, rays, hits);
@@ -271,53 +205,24 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view) {
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
 }
 
-uint32_t Renderer::State::take_pending() {
-  uint32_t count = 0;
-  backend.download(pending.id(), std::as_writable_bytes(std::span(&count, 1)), 0);
-  return count;
-}
-
-// All rays to their end, in as many dispatches as the budget of each needs. False: interrupted.
-bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
-                            const Interrupted& interrupted) {
-  const PassDecl* closest[] = {nullptr, &passes::trace_threaded, &passes::trace_octant, &passes::trace_wide};
-  const PassDecl* any[] = {nullptr, &passes::occlude_threaded, &passes::occlude_octant,
-                           &passes::occlude_wide};
-  const bool occlusion = &rays == &shadow;
-  const PassDecl& pass = *(occlusion ? any : closest)[static_cast<uint32_t>(traversal)];
-  std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo.id(),   nodes_hi.id(),
-                                   geometry.id(),    links.id(),      rays.hits.id(),
-                                   rays.states.id(), rays.steps.id(), pending.id()};
-  if (traversal == Traversal::wide) buffers.insert(buffers.end(), {wide_nodes.id(), tables.leaf_map.id()});
-  const uint32_t zero = 0;
-  layout::TracePush push{count, levels.depth(), take_pending() != 0 ? 1u : 0u, settings.loop_budget,
-                         levels.slots()};
-  do {
-    if (interrupted && interrupted()) return false;
-    backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
-    run(pass, buffers, push, count, {any_hit ? 1u : 0u, steps ? 1u : 0u});
-    push.resume = 1;
-  } while (take_pending() != 0);
-  return true;
-}
-
-// The same where materials cut out texels: hits on those are passed through until none is left. The nearest
-// hit has to be found each time, also for shadow rays.
-bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, bool any_hit, bool steps,
+// All rays to their end. Where materials cut out texels, hits on those are passed through until none is left;
+// the nearest hit has to be found each time, also for shadow rays. False: interrupted.
+bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query,
                                    const Interrupted& interrupted) {
-  if (!trace(rays, count, any_hit && !tables.has_masks, steps, interrupted)) return false;
+  if (tables.has_masks) query.any_hit = false;
+  if (!tracing.trace(geometry, rays, count, query, interrupted)) return false;
   if (!tables.has_masks) return true;
   do {
-    run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), pending.id()}),
+    run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), tracing.pending().id()}),
         layout::CountPush{count}, count, {tables.sources});
-    if (take_pending() == 0) return true;
-  } while (trace(rays, count, false, steps, interrupted));
+    if (tracing.take_pending() == 0) return true;
+  } while (tracing.trace(geometry, rays, count, query, interrupted));
   return false;
 }
 
 // What the shadow rays carry, where nothing is in their way. False: interrupted.
 bool Renderer::State::add_unblocked(uint32_t count, const Interrupted& interrupted) {
-  if (!trace_masked(shadow, count, true, false, interrupted)) return false;
+  if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true}, interrupted)) return false;
   run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
       count);
   return true;
@@ -351,16 +256,16 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
     const layout::PathPush push{
         rays.first_ray,       rays.rays,   rays.sample_index, vertex,
         settings.max_bounces, light_count, sky_lights,        vertex == 0 ? rays.first : 0};
-    backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
+    backend.upload(alive.id(), std::as_bytes(std::span(&zero, 1)));
     run(passes::path,
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
-                                  radiance.id(), paths.id(), pending.id()}),
+                                  radiance.id(), paths.id(), alive.id()}),
         push, push.rays, {tables.sources});
-    const bool last = take_pending() == 0;
-    backend.upload(pending.id(), std::as_bytes(std::span(&zero, 1)));
+    uint32_t left = 0;
+    backend.download(alive.id(), std::as_writable_bytes(std::span(&left, 1)), 0);
     if (!add_unblocked(push.rays, interrupted)) return false;
-    if (last) return true;
-    if (!trace_masked(primary, push.rays, false, false, interrupted)) return false;
+    if (left == 0) return true;
+    if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
   }
 }
 
@@ -382,7 +287,7 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
   if (!settings.aovs.empty()) {
     const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
-    if (!trace_masked(primary, count, false, true, interrupted)) return false;
+    if (!trace_masked(primary, count, {.steps = true}, interrupted)) return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
         count, {tables.sources});
   }
@@ -391,7 +296,7 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
         first_ray, count, sample, settings.spp == 1 ? 1u : 0u, has_lens() ? 0u : 1u,
         0,         sample == 0 ? 1u : 0u};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
-    if (!trace_masked(primary, count, false, false, interrupted)) return false;
+    if (!trace_masked(primary, count, {}, interrupted)) return false;
     if (!integrate(push, interrupted)) return false;
   }
   run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()},
@@ -440,7 +345,7 @@ std::vector<PassRecord> Renderer::setup_passes() const {
   return state_->setup;
 }
 Traversal Renderer::traversal() const {
-  return state_->traversal;
+  return state_->tracing.traversal();
 }
 void Renderer::update(const scene::Pose& pose) {
   state_->update(pose);
@@ -460,7 +365,8 @@ void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
 }
 
 void Renderer::trace_loaded() {
-  state_->trace(state_->loaded, state_->loaded_rays, false, false, {});
+  State& s = *state_;
+  s.tracing.trace(s.geometry, s.loaded, s.loaded_rays, {}, {});
 }
 
 std::vector<glm::uvec4> Renderer::hits() {
