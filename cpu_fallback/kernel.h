@@ -32,7 +32,7 @@ struct EmptyProbe {
   static constexpr bool counting = false;
   void read(uint32_t) {}
   void write(uint32_t) {}
-  void step() {}
+  void step(uint32_t) {}
   void triangles(uint32_t) {}
   void ray() {}
 };
@@ -42,9 +42,9 @@ struct CountingProbe {
   render::Counters counts;
   void read(uint32_t words) { counts.bytes_read += 4 * words; }
   void write(uint32_t words) { counts.bytes_written += 4 * words; }
-  void step() {  // one node of one ray; a single ray is a subgroup of one
-    ++counts.node_visits;
-    ++counts.box_tests;
+  void step(uint32_t boxes) {  // of one ray; a single ray is a subgroup of one
+    counts.node_visits += boxes;
+    counts.box_tests += boxes;
     ++counts.lane_steps;
     ++counts.subgroup_steps;
   }

@@ -15,12 +15,12 @@ inline constexpr uint32_t packet_rays = 16;
 inline constexpr uint32_t trace_grain = 1024;  // rays of a task, at most
 
 template <class Probe>
-class TraceBlock : public TraceKernel<Probe> {
+class TraceBlock : public NodesKernel<Probe> {
  public:
   static constexpr bool counting = Probe::counting;
 
   explicit TraceBlock(const CpuDispatch& dispatch)
-      : TraceKernel<Probe>(dispatch),
+      : NodesKernel<Probe>(dispatch),
         extent_(this->scene_extent()),
         grid_(as_vec3(this->nodes_lo_.load4(0)), as_vec3(this->nodes_hi_.load4(0))),
         first_leaf_record_(levels_.first(levels_.count() - 1)),
@@ -29,7 +29,7 @@ class TraceBlock : public TraceKernel<Probe> {
   uint32_t depth() const { return this->push_.depth; }
   float extent() const { return extent_; }
   const WideGrid& grid() const { return grid_; }
-  bool any_hit() const { return TraceKernel<Probe>::any_hit(); }
+  bool any_hit() const { return NodesKernel<Probe>::any_hit(); }
 
   // Do these rays go together? All of one octant, from nearby origins, in a narrow cone.
   bool coherent(uint32_t first, uint32_t count) {
@@ -150,8 +150,8 @@ class TraceBlock : public TraceKernel<Probe> {
     return (direction.x < 0 ? 1 : 0) | (direction.y < 0 ? 2 : 0) | (direction.z < 0 ? 4 : 0);
   }
 
-  const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(9).words);
-  Words leaf_map_ = this->words(10);
+  const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(8).words);
+  Words leaf_map_ = this->words(9);
   render::WideLevels levels_{this->push_.depth, this->push_.slots};
   float extent_;
   WideGrid grid_;

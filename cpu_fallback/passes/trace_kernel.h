@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the traversals of single rays share: their buffers, and a ray's state from dispatch to dispatch
+// What the traversals of single rays share: a ray, its hit, and its state from dispatch to dispatch
 // (shaders/geometry_image/trace.glsl).
 #pragma once
 
 #include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/bounds.h"
 #include "lodestone/layout/trace.h"
 
 namespace lodestone::cpu_fallback {
 
-template <class Probe>
+template <class Probe, class Push>
 class TraceKernel : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
@@ -23,12 +24,6 @@ class TraceKernel : public Kernel<Probe> {
     const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)),
                      along = this->load(rays_, 2 * uint64_t(index) + 1);
     return layout::stored_ray(from, along);
-  }
-
-  // The largest absolute coordinate of the root's bound.
-  float scene_extent() {
-    return layout::max2(layout::largest_abs(as_vec3(this->load(nodes_lo_, 0))),
-                        layout::largest_abs(as_vec3(this->load(nodes_hi_, 0))));
   }
 
   // False: this ray has nothing to do in this dispatch.
@@ -57,9 +52,9 @@ class TraceKernel : public Kernel<Probe> {
     }
   }
 
-  void count_step() {
+  void count_step(uint32_t boxes = 1) {
     ++visits_;
-    this->probe.step();
+    this->probe.step(boxes);
   }
 
   void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Shear& shear,
@@ -71,18 +66,44 @@ class TraceKernel : public Kernel<Probe> {
     this->probe.triangles(2);
   }
 
+  // The same where the quad's own bound has not been asked yet.
+  void test_quad(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Slabs& slabs,
+                 const layout::Shear& shear, uint32_t passed, layout::Hit& best) {
+    const glm::vec3 a = as_vec3(this->load(geometry_, texel)), b = as_vec3(this->load(geometry_, texel + 1)),
+                    c = as_vec3(this->load(geometry_, texel + stride)),
+                    d = as_vec3(this->load(geometry_, texel + stride + 1));
+    this->probe.triangles(2);
+    const layout::Bound bound = layout::quad_bound(a, b, c, d);
+    const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
+    if (!(enter <= layout::slab_exit(slabs, bound.lo, bound.hi, best.t))) return;
+    layout::intersect_quad(a, b, c, d, ray, shear, passed, enter, texel, best);
+  }
+
   bool any_hit() const { return any_hit_; }
 
-  Quads rays_ = this->quads(0), nodes_lo_ = this->quads(1), nodes_hi_ = this->quads(2),
-        geometry_ = this->quads(3);
-  Words links_ = this->words(4);
-  Quads hits_ = this->quads(5), states_ = this->quads(6);
-  Words steps_ = this->words(7), pending_ = this->words(8);
-  layout::TracePush push_ = this->template push<layout::TracePush>();
+  Quads rays_ = this->quads(0), geometry_ = this->quads(1), hits_ = this->quads(2), states_ = this->quads(3);
+  Words steps_ = this->words(4), pending_ = this->words(5);
+  Push push_ = this->template push<Push>();
 
  private:
   bool any_hit_ = this->constant(0) != 0;
   uint32_t visits_ = 0;
+};
+
+// Those of single nodes: the hierarchy in 32 bits.
+template <class Probe>
+class NodesKernel : public TraceKernel<Probe, layout::TracePush> {
+ public:
+  using TraceKernel<Probe, layout::TracePush>::TraceKernel;
+
+ protected:
+  // The largest absolute coordinate of the root's bound.
+  float scene_extent() {
+    return layout::max2(layout::largest_abs(as_vec3(this->load(nodes_lo_, 0))),
+                        layout::largest_abs(as_vec3(this->load(nodes_hi_, 0))));
+  }
+
+  Quads nodes_lo_ = this->quads(6), nodes_hi_ = this->quads(7);
 };
 
 }  // namespace lodestone::cpu_fallback

@@ -7,15 +7,15 @@ namespace {
 using glm::uvec4;
 
 template <class Probe>
-class TraceOctant : public TraceKernel<Probe> {
+class TraceOctant : public NodesKernel<Probe> {
  public:
-  using TraceKernel<Probe>::TraceKernel;
+  using NodesKernel<Probe>::NodesKernel;
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
     const layout::Slabs slabs = layout::make_slabs(ray, extent_);
     const layout::Shear shear = layout::make_shear(ray);
-    typename TraceKernel<Probe>::State state;
+    typename NodesKernel<Probe>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
     layout::Walk walk{layout::trace_depth(state.place), state.place.x, state.place.y};

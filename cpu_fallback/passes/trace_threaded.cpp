@@ -7,23 +7,23 @@ namespace {
 using glm::uvec4;
 
 template <class Probe>
-class TraceThreaded : public TraceKernel<Probe> {
+class TraceThreaded : public NodesKernel<Probe> {
  public:
-  using TraceKernel<Probe>::TraceKernel;
+  using NodesKernel<Probe>::NodesKernel;
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
     const layout::Slabs slabs = layout::make_slabs(ray, extent_);
     const layout::Shear shear = layout::make_shear(ray);
-    typename TraceKernel<Probe>::State state;
+    typename NodesKernel<Probe>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
     uint32_t link = state.place.x;
     if (!(ray.tmax < 0.0f)) {
       for (uint32_t budget = this->push_.budget; budget != 0; --budget) {
         const uvec4 lo = this->load(this->nodes_lo_, link), hi = this->load(this->nodes_hi_, link);
-        const uint32_t hit = this->load(this->links_, 2 * uint64_t(link));
-        const uint32_t miss = this->load(this->links_, 2 * uint64_t(link) + 1);
+        const uint32_t hit = this->load(links_, 2 * uint64_t(link));
+        const uint32_t miss = this->load(links_, 2 * uint64_t(link) + 1);
         this->count_step();
         const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
         const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
@@ -42,6 +42,7 @@ class TraceThreaded : public TraceKernel<Probe> {
   }
 
  private:
+  Words links_ = this->words(8);
   float extent_ = this->scene_extent();
 };
 

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What the traversals share: their buffers, and a ray's state from dispatch to dispatch.
-#include "kernel.glsl"
-#include "layout/trace.h"
+// What the traversals share: a ray, its hit, and its state from dispatch to dispatch. Before this come their own
+// buffers, push constants and counters.
+#include "layout/bounds.h"
 
 QUADS(0, readonly, rays);  // two a ray: origin and tmin, direction and tmax
-QUADS(1, readonly, nodes_lo);
-QUADS(2, readonly, nodes_hi);
-QUADS(3, readonly, geometry);
-WORDS(4, readonly, links);
-QUADS(5, restrict, hits);    // t, u, v, primitive
-QUADS(6, restrict, states);  // the place in the tree, and whether the ray goes on
-WORDS(7, restrict, steps);  // nodes visited, where specialization constant 3 asks for it
-STRUCTS(8, restrict, uint, pending);  // rays that need another dispatch
-COUNTERS(9)
-PUSH(TracePush, push);
+QUADS(1, readonly, geometry);
+QUADS(2, restrict, hits);    // t, u, v, primitive
+QUADS(3, restrict, states);  // the place in the tree, and whether the ray goes on
+WORDS(4, restrict, steps);   // nodes visited, where specialization constant 3 asks for it
+STRUCTS(5, restrict, uint, pending);  // rays that need another dispatch
 
 layout(constant_id = 2) const uint any_hit = 0u;  // 1: stop at the first hit found; hits say only whether
 layout(constant_id = 3) const uint write_steps = 0u;
@@ -30,14 +25,7 @@ Ray load_ray(uint index) {
   return stored_ray(from, along);
 }
 
-// The largest absolute coordinate of the root's bound.
-float scene_extent() {
-  uvec4 lo;
-  uvec4 hi;
-  LOAD4(lo, nodes_lo, 0u);
-  LOAD4(hi, nodes_hi, 0u);
-  return max2(largest_abs(as_vec3(lo)), largest_abs(as_vec3(hi)));
-}
+uint boxes_a_step = 1u;
 
 void count_step() {
   node_visits += 1u;
@@ -54,6 +42,24 @@ void test_leaf(uint texel, uint stride, Ray ray, Shear shear, uint passed, float
   LOAD4(c, geometry, texel + stride);
   LOAD4(d, geometry, texel + stride + 1u);
   intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, passed, enter, texel, best);
+  triangle_tests += 2u;
+}
+
+// The same where the quad's own bound has not been asked yet.
+void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint passed, inout Hit best) {
+  uvec4 a;
+  uvec4 b;
+  uvec4 c;
+  uvec4 d;
+  LOAD4(a, geometry, texel);
+  LOAD4(b, geometry, texel + 1u);
+  LOAD4(c, geometry, texel + stride);
+  LOAD4(d, geometry, texel + stride + 1u);
+  Bound bound = quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
+  float enter = slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
+  if (enter <= slab_exit(slabs, bound.lo, bound.hi, best.t)) {
+    intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, passed, enter, texel, best);
+  }
   triangle_tests += 2u;
 }
 
@@ -95,8 +101,8 @@ void end_ray(uint index, Ray ray, Hit best, uvec4 state) {
   }
   if (counting != 0u) {
     if (push.resume == 0u && !(ray.tmax < 0.0)) count(counter_rays, 1u);
-    count(counter_node_visits, node_visits);
-    count(counter_box_tests, node_visits);
+    count(counter_node_visits, boxes_a_step * node_visits);
+    count(counter_box_tests, boxes_a_step * node_visits);
     count(counter_triangle_tests, triangle_tests);
     count(counter_lane_steps, node_visits);
     count(counter_subgroup_steps, subgroup_steps);

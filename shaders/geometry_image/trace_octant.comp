@@ -4,7 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
-#include "geometry_image/trace.glsl"
+#include "kernel.glsl"
+
+COUNTERS(8)
+
+#include "geometry_image/trace_nodes.glsl"
 
 void main() {
   uint index = invocation();

@@ -3,7 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
-#include "geometry_image/trace.glsl"
+#include "kernel.glsl"
+
+WORDS(8, readonly, links);
+COUNTERS(9)
+
+#include "geometry_image/trace_nodes.glsl"
 
 void main() {
   uint index = invocation();

@@ -259,7 +259,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   add_seed_option(app, options.seed);
   add_camera_option(app, options.camera);
   add_value(app, "--traversal", "NAME",
-            "threaded, octant, wide (CPU only), or auto: the fastest of the device (default). All give the "
+            "threaded, octant, wide, or auto: the fastest of the device (default). All give the "
             "same hits",
             [&](const std::string& text) { options.traversal = parse_traversal("--traversal", text); });
   add_integrator_options(app, options);

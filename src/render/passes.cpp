@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/render/passes.h"
 
+#include "lodestone/layout/boxes.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/relax.h"
@@ -48,17 +49,39 @@ constexpr Binding bounds_bindings[] = {{"nodes_lo", quad, read_write}, {"nodes_h
 
 constexpr Binding camera_bindings[] = {{"frame", structs, read}, {"rays", quad, write}};
 
-constexpr Binding trace_bindings[] = {
-    {"rays", quad, read},         {"nodes_lo", quad, read},    {"nodes_hi", quad, read},
-    {"geometry", quad, read},     {"links", word, read},       {"hits", quad, read_write},
-    {"states", quad, read_write}, {"steps", word, read_write}, {"pending", structs, read_write}};
+#define RAY_BINDINGS                                                                                        \
+  {"rays", quad, read}, {"geometry", quad, read}, {"hits", quad, read_write}, {"states", quad, read_write}, \
+      {"steps", word, read_write}, {                                                                        \
+    "pending", structs, read_write                                                                          \
+  }
 
-// The CPU's traversal: the same and two more.
-constexpr Binding trace_wide_bindings[] = {
-    {"rays", quad, read},          {"nodes_lo", quad, read},    {"nodes_hi", quad, read},
-    {"geometry", quad, read},      {"links", word, read},       {"hits", quad, read_write},
-    {"states", quad, read_write},  {"steps", word, read_write}, {"pending", structs, read_write},
-    {"wide_nodes", structs, read}, {"leaf_map", word, read}};
+constexpr Binding trace_threaded_bindings[] = {
+    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}};
+
+constexpr Binding trace_octant_bindings[] = {
+    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}};
+
+// The CPU's traversal.
+constexpr Binding trace_wide_bindings[] = {RAY_BINDINGS,
+                                           {"nodes_lo", quad, read},
+                                           {"nodes_hi", quad, read},
+                                           {"wide_nodes", structs, read},
+                                           {"leaf_map", word, read}};
+
+constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
+                                            {"boxes", quad, read},
+                                            {"leaf_map", word, read},
+                                            {"extent", structs, read},
+                                            {"trails", quad, read_write}};
+
+#undef RAY_BINDINGS
+
+constexpr Binding boxes_leaves_bindings[] = {{"leaf_map", word, read},
+                                             {"geometry", quad, read},
+                                             {"boxes", quad, write},
+                                             {"extent", structs, read_write}};
+
+constexpr Binding boxes_bindings[] = {{"boxes", quad, read_write}};
 
 constexpr Binding wide_nodes_bindings[] = {
     {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"wide_nodes", structs, write}};
@@ -125,14 +148,22 @@ const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_le
                              sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
 const PassDecl wide_nodes{"bounds", "geometry_image/wide_nodes", wide_nodes_bindings, sizeof(BoundsPush)};
+const PassDecl boxes_leaves{"bounds", "geometry_image/boxes_leaves", boxes_leaves_bindings,
+                            sizeof(BoxesPush)};
+const PassDecl boxes{"bounds", "geometry_image/boxes", boxes_bindings, sizeof(BoxesPush)};
 const PassDecl camera{"camera", "geometry_image/camera", camera_bindings, sizeof(RayPush)};
-const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_bindings, sizeof(TracePush)};
-const PassDecl trace_octant{"trace", "geometry_image/trace_octant", trace_bindings, sizeof(TracePush)};
+const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_threaded_bindings,
+                              sizeof(TracePush)};
+const PassDecl trace_octant{"trace", "geometry_image/trace_octant", trace_octant_bindings, sizeof(TracePush)};
 const PassDecl trace_wide{"trace", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
-const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_bindings,
+const PassDecl trace_boxes{"trace", "geometry_image/trace_boxes", trace_boxes_bindings, sizeof(BoxTracePush)};
+const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_threaded_bindings,
                                 sizeof(TracePush)};
-const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_bindings, sizeof(TracePush)};
+const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_octant_bindings,
+                              sizeof(TracePush)};
 const PassDecl occlude_wide{"occlude", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
+const PassDecl occlude_boxes{"occlude", "geometry_image/trace_boxes", trace_boxes_bindings,
+                             sizeof(BoxTracePush)};
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
 const PassDecl ambient{"shade", "geometry_image/ambient", ambient_bindings, sizeof(AmbientPush)};

@@ -14,6 +14,7 @@
 #include "lodestone/render/scene_tables.h"
 #include "lodestone/render/tracing.h"
 #include "lodestone/render/view.h"
+#include "lodestone/scene/pose_box.h"
 #include "lodestone/scene/pose_reach.h"
 
 namespace lodestone::render {
@@ -37,6 +38,7 @@ struct Renderer::State {
   SceneTables tables;
   Tracing tracing;
   scene::PoseReach reach;
+  scene::PoseBox pose_box;
   std::optional<Relaxation> relaxation;
   std::vector<PassRecord> setup;
 
@@ -99,7 +101,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       settings(settings_in),
       tables(device, scene_in, assembly_in, atlas_in),
       tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget),
-      reach(scene_in) {
+      reach(scene_in),
+      pose_box(scene_in) {
   check_aovs(settings.aovs);
   const uint64_t vertices = assembly.positions.size(), texels = atlas.texel_map.size();
   weights = Buffer(device, {"weights", assembly.weight_count, 4});
@@ -159,7 +162,7 @@ void Renderer::State::update(const scene::Pose& pose) {
   run(passes::rasterise,
       {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
       layout::CountPush{texels}, texels);
-  tracing.build(geometry);
+  tracing.build(geometry, pose_box.of(scene, pose));
 }
 
 // By rays through a grid of points of the picture.

@@ -19,7 +19,7 @@
 
 namespace lodestone::render {
 
-// `wide` is for the CPU only. `automatic` takes the fastest of the back end.
+// `automatic` takes the fastest of the back end.
 enum class Traversal : uint32_t { automatic, threaded, octant, wide };
 // `eye`: direct light where the camera's rays end; `dof`: the same through a lens of some size. `ao`: ambient
 // occlusion there, 1 where nothing is near. `path`: all light, by path tracing.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/render/tracing.h"
 
-#include "lodestone/base/error.h"
+#include <algorithm>
+
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/trace.h"
@@ -10,13 +11,19 @@
 namespace lodestone::render {
 namespace {
 
-Traversal choose_traversal(const DeviceInfo& device, Traversal wanted) {
-  const bool cpu = device.kind == "cpu";
-  if (wanted == Traversal::automatic) return cpu ? Traversal::wide : Traversal::octant;
-  if (wanted == Traversal::wide && !cpu) {
-    fail(ExitCode::usage, "--traversal wide", "runs on the CPU only; use threaded or octant on this device");
-  }
-  return wanted;
+Traversal choose_traversal(Traversal wanted) {
+  return wanted == Traversal::automatic ? Traversal::wide : wanted;
+}
+
+// A flat axis gets a thousandth of the largest one. Rounded outwards, all planes stay below 65535.
+layout::BoxGrid make_grid(const scene::Bounds& frame) {
+  const glm::vec3 size = frame.hi - frame.lo;
+  const float largest = std::max(layout::max_component(size), 1e-30f);
+  layout::BoxGrid grid{};
+  grid.base = frame.lo;
+  for (int axis = 0; axis < 3; ++axis)
+    grid.step[axis] = std::max(size[axis], largest * 0x1p-10f) * (1.0f / 65000);
+  return grid;
 }
 
 }  // namespace
@@ -25,18 +32,27 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
                  Traversal traversal, uint32_t loop_budget)
     : backend_(backend),
       leaf_map_(leaf_map),
-      traversal_(choose_traversal(backend.info(), traversal)),
+      on_cpu_(backend.info().kind == "cpu"),
+      traversal_(choose_traversal(traversal)),
       loop_budget_(loop_budget),
       levels_(atlas.depth, static_cast<uint32_t>(atlas.leaf_map.size())),
-      nodes_lo_(backend, {"nodes_lo", levels_.nodes(), 16}),
-      nodes_hi_(backend, {"nodes_hi", levels_.nodes(), 16}),
-      links_(backend, {"links", 2 * levels_.nodes(), 4}),
       pending_(backend, {"pending", 1, 4}) {
-  if (traversal_ == Traversal::wide) {
+  if (uses_boxes()) {
+    const uint64_t records =
+        uint64_t(layout::level_base(levels_.depth() - 1)) + levels_.places(levels_.depth() - 1);
+    boxes_ = Buffer(backend, {"boxes", 3 * records, 16});
+    extent_ = Buffer(backend, {"extent", 1, 4});
+    return;
+  }
+  nodes_lo_ = Buffer(backend, {"nodes_lo", levels_.nodes(), 16});
+  nodes_hi_ = Buffer(backend, {"nodes_hi", levels_.nodes(), 16});
+  if (traversal_ == Traversal::threaded) {
+    links_ = Buffer(backend, {"links", 2 * levels_.nodes(), 4});
+    build_links();
+  } else if (traversal_ == Traversal::wide) {
     const WideLevels wide(levels_.depth(), levels_.slots());
     wide_nodes_ = Buffer(backend, {"wide_nodes", wide.end(), wide_node_bytes});
   }
-  build_links();
 }
 
 template <class Push>
@@ -56,7 +72,15 @@ void Tracing::build_links() {
   }
 }
 
-void Tracing::build(const Buffer& geometry) {
+void Tracing::build(const Buffer& geometry, const scene::Bounds& frame) {
+  if (uses_boxes()) {
+    build_boxes(geometry, frame);
+  } else {
+    build_nodes(geometry);
+  }
+}
+
+void Tracing::build_nodes(const Buffer& geometry) {
   const uint32_t depth = levels_.depth();
   run(passes::bounds_leaves, {leaf_map_.id(), geometry.id(), nodes_lo_.id(), nodes_hi_.id()},
       layout::BoundsPush{depth, levels_.slots(), levels_.places(depth), levels_.places(depth - 1)},
@@ -75,30 +99,67 @@ void Tracing::build(const Buffer& geometry) {
   }
 }
 
+void Tracing::build_boxes(const Buffer& geometry, const scene::Bounds& frame) {
+  grid_ = make_grid(frame);
+  const uint32_t zero = 0;
+  backend_.upload(extent_.id(), std::as_bytes(std::span(&zero, 1)));
+  // Two levels a dispatch; level `depth` are the quads, whose count is that of slots.
+  for (uint32_t level = levels_.depth(); level > 0;) {
+    const bool leaves = level == levels_.depth(), two = level >= 2;
+    const layout::BoxesPush push{level, leaves ? levels_.slots() : levels_.places(level),
+                                 levels_.places(level - 1), two ? levels_.places(level - 2) : 0, grid_};
+    const uint32_t invocations = two ? push.written_above : push.written;
+    if (leaves) {
+      run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extent_.id()}, push,
+          invocations);
+    } else {
+      run(passes::boxes, {boxes_.id()}, push, invocations);
+    }
+    level -= two ? 2 : 1;
+  }
+}
+
 uint32_t Tracing::take_pending() {
   uint32_t count = 0;
   backend_.download(pending_.id(), std::as_writable_bytes(std::span(&count, 1)), 0);
   return count;
 }
 
+void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count,
+                       const TraceQuery& query, bool resume) {
+  std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
+                                   rays.states.id(), rays.steps.id(), pending_.id()};
+  const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u};
+  const layout::TracePush push{count, levels_.depth(), resume ? 1u : 0u, loop_budget_, levels_.slots()};
+  if (uses_boxes()) {
+    buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extent_.id(), rays.trails.id()});
+    // Its loops have up to twice as many iterations a step as the others'.
+    run(query.shadow ? passes::occlude_boxes : passes::trace_boxes, buffers,
+        layout::BoxTracePush{count, push.depth, push.resume, (loop_budget_ + 1) / 2, grid_}, count,
+        constants);
+    return;
+  }
+  buffers.insert(buffers.end(), {nodes_lo_.id(), nodes_hi_.id()});
+  if (traversal_ == Traversal::wide) {
+    buffers.insert(buffers.end(), {wide_nodes_.id(), leaf_map_.id()});
+    run(query.shadow ? passes::occlude_wide : passes::trace_wide, buffers, push, count, constants);
+  } else if (traversal_ == Traversal::octant) {
+    run(query.shadow ? passes::occlude_octant : passes::trace_octant, buffers, push, count, constants);
+  } else {
+    buffers.push_back(links_.id());
+    run(query.shadow ? passes::occlude_threaded : passes::trace_threaded, buffers, push, count, constants);
+  }
+}
+
 bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
                     const Interrupted& interrupted) {
-  const PassDecl* closest[] = {nullptr, &passes::trace_threaded, &passes::trace_octant, &passes::trace_wide};
-  const PassDecl* shadow[] = {nullptr, &passes::occlude_threaded, &passes::occlude_octant,
-                              &passes::occlude_wide};
-  const PassDecl& pass = *(query.shadow ? shadow : closest)[static_cast<uint32_t>(traversal_)];
-  std::vector<BufferId> buffers = {rays.rays.id(),   nodes_lo_.id(),  nodes_hi_.id(),
-                                   geometry.id(),    links_.id(),     rays.hits.id(),
-                                   rays.states.id(), rays.steps.id(), pending_.id()};
-  if (traversal_ == Traversal::wide) buffers.insert(buffers.end(), {wide_nodes_.id(), leaf_map_.id()});
   const uint32_t zero = 0;
-  layout::TracePush push{count, levels_.depth(), take_pending() != 0 ? 1u : 0u, loop_budget_,
-                         levels_.slots()};
+  bool resume = take_pending() != 0;
   do {
     if (interrupted && interrupted()) return false;
     backend_.upload(pending_.id(), std::as_bytes(std::span(&zero, 1)));
-    run(pass, buffers, push, count, {query.any_hit ? 1u : 0u, query.steps ? 1u : 0u});
-    push.resume = 1;
+    dispatch(geometry, rays, count, query, resume);
+    resume = true;
   } while (take_pending() != 0);
   return true;
 }

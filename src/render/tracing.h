@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "lodestone/geometry_image/atlas.h"
+#include "lodestone/layout/boxes.h"
 #include "lodestone/render/backend.h"
 #include "lodestone/render/hierarchy_levels.h"
 #include "lodestone/render/renderer.h"
+#include "lodestone/scene/pose.h"
 
 namespace lodestone::render {
 
@@ -24,8 +26,9 @@ struct RayBuffers {
       : rays(backend, {prefix + "rays", 2 * count, 16}),
         hits(backend, {prefix + "hits", count, 16}),
         states(backend, {prefix + "states", count, 16}),
+        trails(backend, {prefix + "trails", count, 16}),
         steps(backend, {prefix + "steps", count, 4}) {}
-  Buffer rays, hits, states, steps;
+  Buffer rays, hits, states, trails, steps;
 };
 
 // What is asked of a run of rays.
@@ -44,8 +47,8 @@ class Tracing {
 
   Traversal traversal() const { return traversal_; }  // what `automatic` became
 
-  // The bounds of all quads, and of the nodes above them.
-  void build(const Buffer& geometry);
+  // The bounds of all quads, and of the nodes above them. `frame` holds all of the surface.
+  void build(const Buffer& geometry, const scene::Bounds& frame);
 
   // The first `count` rays to their end, in as many dispatches as the budget of each needs; those that `mask`
   // sends on, if `pending` says that there are some. False: interrupted.
@@ -61,13 +64,22 @@ class Tracing {
   void run(const PassDecl& pass, const std::vector<BufferId>& buffers, const Push& push, uint32_t invocations,
            const std::array<uint32_t, pass_constants>& constants = {});
   void build_links();
+  void build_nodes(const Buffer& geometry);
+  void build_boxes(const Buffer& geometry, const scene::Bounds& frame);
+  bool uses_boxes() const { return traversal_ == Traversal::wide && !on_cpu_; }
+  void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
+                bool resume);
 
   Backend& backend_;
   const Buffer& leaf_map_;
+  bool on_cpu_;
   Traversal traversal_;
   uint32_t loop_budget_;
   HierarchyLevels levels_;
-  Buffer nodes_lo_, nodes_hi_, wide_nodes_, links_, pending_;
+  layout::BoxGrid grid_{};
+  Buffer nodes_lo_, nodes_hi_, links_, wide_nodes_;  // 32 bits, and the CPU's copy in 16
+  Buffer boxes_, extent_;                            // 16 bits
+  Buffer pending_;
 };
 
 }  // namespace lodestone::render

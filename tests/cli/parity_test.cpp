@@ -82,12 +82,5 @@ TEST_F(Parity, DevicesCanBeNamedByIndexAndByPartOfTheirName) {
   }
 }
 
-TEST_F(Parity, TheWideTraversalIsForTheCpu) {
-  const Result result = run({"render", "builtin:tiny", "-o", place("x.png"), "--size", "8x8", "--device",
-                             "gpu", "--traversal", "wide"});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("CPU"), std::string::npos) << result.err;
-}
-
 }  // namespace
 }  // namespace lodestone::cli

@@ -48,6 +48,9 @@ void expect_equal(const std::vector<render::PassDifference>& rows) {
   }
 }
 
+constexpr render::Traversal all_traversals[] = {render::Traversal::threaded, render::Traversal::octant,
+                                                render::Traversal::wide};
+
 void expect_equal(const ReadyScene& ready, const std::string& device, const render::Settings& settings) {
   for (const float time : {0.0f, 0.6f})
     expect_equal(differences(ready, open_validated(device), time, settings));
@@ -70,7 +73,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnAnExactAtlas) {
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnResampledSpheres) {
-  for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+  for (const auto traversal : all_traversals) {
     render::Settings settings = small_settings();
     settings.traversal = traversal;
     expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts), GetParam(), settings);
@@ -97,7 +100,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnMorphsSkinsAndTextures) {
 
 TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
   render::Settings settings = small_settings();
-  for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+  for (const auto traversal : all_traversals) {
     settings.traversal = traversal;
     settings.loop_budget = 7;
     expect_equal(ReadyScene("builtin:tiny"), GetParam(), settings);
@@ -111,7 +114,7 @@ TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
   using geometry_image::AtlasKind;
   for (const auto kind : {AtlasKind::grid, AtlasKind::exact, AtlasKind::charts}) {
     const ReadyScene ready("builtin:spheres", kind);
-    for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+    for (const auto traversal : all_traversals) {
       render::Settings settings = small_settings();
       settings.traversal = traversal;
       expect_equal(differences(ready, open_split(GetParam(), 20000, {.validate = true}), 0.6f, settings));
@@ -132,7 +135,7 @@ ReadyScene masked_scene(geometry_image::AtlasKind kind) {
 TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
   for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts}) {
     const ReadyScene ready = masked_scene(kind);
-    for (const auto traversal : {render::Traversal::octant, render::Traversal::threaded}) {
+    for (const auto traversal : all_traversals) {
       render::Settings settings = small_settings();
       settings.traversal = traversal;
       expect_equal(ready, GetParam(), settings);
@@ -146,8 +149,9 @@ TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
   const ReadyScene ready = masked_scene(geometry_image::AtlasKind::exact);
   for (const char* pass : {"links", "blend", "rasterise", "bounds", "camera", "trace", "mask", "aov", "shade",
                            "occlude", "accumulate", "resolve"}) {
-    const auto rows =
-        differences(ready, open_validated(GetParam()), 0, small_settings(), render::Fault{pass, bit});
+    render::Settings settings = small_settings();
+    if (std::string(pass) == "links") settings.traversal = render::Traversal::threaded;
+    const auto rows = differences(ready, open_validated(GetParam()), 0, settings, render::Fault{pass, bit});
     uint32_t found = 0;
     for (const auto& row : rows) {
       if (row.different == 0) continue;

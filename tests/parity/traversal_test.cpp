@@ -46,6 +46,8 @@ void expect_all_equal(const ReadyScene& ready, const Rays& rays) {
     EXPECT_EQ(hits_of(ready, device, render::Traversal::threaded, rays), expected) << device;
     EXPECT_EQ(hits_of(ready, device, render::Traversal::octant, rays), expected) << device;
     EXPECT_EQ(hits_of(ready, device, render::Traversal::octant, rays, 0, 50), expected) << device;
+    EXPECT_EQ(hits_of(ready, device, render::Traversal::wide, rays), expected) << device;
+    EXPECT_EQ(hits_of(ready, device, render::Traversal::wide, rays, 0, 50), expected) << device;
   }
 }
 
@@ -106,7 +108,8 @@ TEST(Traversals, GoOnWhereADeviceCutsLoops) {
   for (int i = 0; i < 16; ++i) add_ray(rays, {0.9f, 0.9f - 0.001f * static_cast<float>(i), 2}, {0, 0, -1});
   for (const std::string& device : device_names()) {
     const auto backend = open(device, {.counters = true});
-    for (const auto traversal : {render::Traversal::threaded, render::Traversal::octant}) {
+    for (const auto traversal :
+         {render::Traversal::threaded, render::Traversal::octant, render::Traversal::wide}) {
       render::Settings settings;
       settings.width = settings.height = 8;
       settings.traversal = traversal;

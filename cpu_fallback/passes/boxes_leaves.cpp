@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "lodestone/cpu_fallback/passes/boxes.h"
+
+namespace lodestone::cpu_fallback {
+namespace {
+
+template <class Probe>
+class BoxesLeaves : public BoxesKernel<Probe> {
+ public:
+  using BoxesKernel<Probe>::BoxesKernel;
+
+  void operator()(uint32_t index) {
+    float reach = 0;
+    if (this->push_.written_above == 0) {
+      if (index < this->push_.written) bound_record(index, reach);
+    } else if (index < this->push_.written_above) {
+      const layout::Box parents[4] = {bound_record(4 * index, reach), bound_record(4 * index + 1, reach),
+                                      bound_record(4 * index + 2, reach), bound_record(4 * index + 3, reach)};
+      this->store_record(boxes_, this->push_.depth - 2, index, parents);
+    }
+    std::atomic_ref<uint32_t> extent(extent_.words[0]);
+    const uint32_t bits = layout::floatBitsToUint(reach);
+    uint32_t before = extent.load(std::memory_order_relaxed);
+    while (bits > before && !extent.compare_exchange_weak(before, bits, std::memory_order_relaxed)) {
+    }
+  }
+
+ private:
+  layout::Box bound_leaf(uint32_t slot, float& reach) {
+    if (slot >= this->push_.count) return layout::empty_box();
+    const uint32_t texel = this->load(leaf_map_, 2 * uint64_t(slot)),
+                   stride = this->load(leaf_map_, 2 * uint64_t(slot) + 1);
+    if (texel == layout::empty_slot) return layout::empty_box();
+    const layout::Bound bound = layout::quad_bound(
+        as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
+        as_vec3(this->load(geometry_, texel + stride)), as_vec3(this->load(geometry_, texel + stride + 1)));
+    reach = layout::max2(reach, layout::max2(layout::largest_abs(bound.lo), layout::largest_abs(bound.hi)));
+    return layout::bound_box(bound.lo, bound.hi, this->push_.grid, per_step_);
+  }
+
+  layout::Box bound_record(uint32_t index, float& reach) {
+    const layout::Box children[4] = {bound_leaf(4 * index, reach), bound_leaf(4 * index + 1, reach),
+                                     bound_leaf(4 * index + 2, reach), bound_leaf(4 * index + 3, reach)};
+    if (index >= this->push_.written) return this->join(children);
+    return this->store_record(boxes_, this->push_.depth - 1, index, children);
+  }
+
+  Words leaf_map_ = this->words(0);
+  Quads geometry_ = this->quads(1), boxes_ = this->quads(2);
+  Words extent_ = this->words(3);
+  glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
+};
+
+LODESTONE_BLOCK_FUNCTION(static, boxes_leaves, BoxesLeaves)
+
+}  // namespace
+
+void boxes_leaves(const CpuDispatch& dispatch) {
+  run_blocks(dispatch, 256, boxes_leaves_block);
+}
+
+}  // namespace lodestone::cpu_fallback
