@@ -15,8 +15,9 @@ struct Entry {
   Scene (*make)();
 };
 
-constexpr std::array<Entry, 4> entries = {{{"head", builtin::make_head},
+constexpr std::array<Entry, 5> entries = {{{"head", builtin::make_head},
                                            {"spheres", builtin::make_spheres},
+                                           {"teapots", builtin::make_teapots},
                                            {"terrain", builtin::make_terrain},
                                            {"tiny", builtin::make_tiny}}};
 

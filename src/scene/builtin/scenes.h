@@ -10,6 +10,9 @@ namespace lodestone::scene::builtin {
 Scene make_head();
 // A floor and closed spheres of several materials, lights of every kind, one blendshape; 10,000 triangles.
 Scene make_spheres();
+// Three Utah teapots on an island with palms, cameras `teapots`, `island` and `handle`; 98,000 triangles,
+// rigid nodes that turn in clip `Turn`.
+Scene make_teapots();
 // A fractal height field of charts of unequal odd sizes with a moving wave; 40,000 triangles.
 Scene make_terrain();
 // Two grids with a handful of triangles and one blendshape.

@@ -3,6 +3,7 @@
 // through it: the test of chart borders, odd pyramids and moving samples.
 #include <cmath>
 
+#include "lodestone/scene/builtin/noise.h"
 #include "lodestone/scene/builtin/scenes.h"
 #include "lodestone/scene/builtin/staging.h"
 #include "lodestone/scene/builtin/surface.h"
@@ -14,24 +15,6 @@ constexpr std::array<uint32_t, 3> chart_widths = {97, 64, 50};  // samples; neig
 constexpr std::array<uint32_t, 2> chart_heights = {61, 33};
 constexpr uint32_t columns = 97 + 64 + 50 - 2, rows = 61 + 33 - 1;
 constexpr float spacing = 0.05f;
-
-// A number in [0, 1) that looks random, of a lattice point.
-float lattice_noise(int x, int y, uint32_t octave) {
-  uint32_t h = uint32_t(x) * 0x8da6b343u ^ uint32_t(y) * 0xd8163841u ^ (octave + 1) * 0xcb1ab31fu;
-  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
-  h = (h ^ (h >> 12)) * 0x297a2d39u;
-  return float((h ^ (h >> 15)) >> 8) / 16777216.0f;
-}
-
-// Value noise: the noise of the four lattice points around, smoothly blended.
-float value_noise(float x, float y, uint32_t octave) {
-  const int ix = int(std::floor(x)), iy = int(std::floor(y));
-  const float fx = x - float(ix), fy = y - float(iy);
-  const float sx = fx * fx * (3 - 2 * fx), sy = fy * fy * (3 - 2 * fy);
-  const float low = glm::mix(lattice_noise(ix, iy, octave), lattice_noise(ix + 1, iy, octave), sx);
-  const float high = glm::mix(lattice_noise(ix, iy + 1, octave), lattice_noise(ix + 1, iy + 1, octave), sx);
-  return glm::mix(low, high, sy);
-}
 
 // Ridged fractal noise: mountains with crests, flat valleys.
 float height_at(glm::vec2 p) {

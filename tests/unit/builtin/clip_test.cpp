@@ -15,7 +15,7 @@ using scene::Pose;
 using scene::Scene;
 
 class LoopingClip : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, LoopingClip, testing::Values("head", "spheres", "terrain"),
+INSTANTIATE_TEST_SUITE_P(Scenes, LoopingClip, testing::Values("head", "spheres", "teapots", "terrain"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(LoopingClip, EndsAsItBegins) {
@@ -27,7 +27,11 @@ TEST_P(LoopingClip, EndsAsItBegins) {
   EXPECT_EQ(first.node_world, last.node_world);
 }
 
-TEST_P(LoopingClip, MovesInBetween) {
+class MorphingClip : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, MorphingClip, testing::Values("head", "spheres", "terrain"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(MorphingClip, MovesInBetween) {
   const Scene scene = scene::make_builtin(GetParam());
   const Pose first = scene::evaluate(scene, 0, 0);
   const Pose middle = scene::evaluate(scene, 0, 0.45f * scene.animations[0].duration());
