@@ -57,6 +57,7 @@ glm::quat normalized_or_identity(const glm::quat& q) {
 }
 
 glm::quat slerp_shortest(const glm::quat& from, const glm::quat& to, float t) {
+  if (t == 0) return from;  // at a key: what follows rounds
   const float dot = glm::dot(from, to);
   const glm::quat near = dot < 0 ? -to : to;
   const float cosine = std::min(std::abs(dot), 1.0f);

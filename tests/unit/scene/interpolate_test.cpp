@@ -53,6 +53,21 @@ TEST(SampleChannel, ZeroLengthRotationKeysAreTheIdentity) {
   EXPECT_EQ(sample_channel(channel, 0.5f, 4), (std::vector<float>{0, 0, 0, 1}));
 }
 
+TEST(SampleChannel, ARotationAtAKeyIsThatKeyToTheBit) {
+  Channel channel;
+  channel.path = Channel::Path::rotation;
+  for (int k = 0; k < 50; ++k) {
+    const glm::quat q = turn(0.11f * float(k));
+    channel.times.push_back(float(k));
+    channel.values.insert(channel.values.end(), {q.x, q.y, q.z, q.w});
+  }
+  for (int k = 0; k < 50; ++k) {
+    const glm::quat unit = normalized_or_identity(turn(0.11f * float(k)));
+    EXPECT_EQ(sample_channel(channel, float(k), 4), (std::vector<float>{unit.x, unit.y, unit.z, unit.w}))
+        << k;
+  }
+}
+
 TEST(SampleChannel, SplineOfRotationsIsNormalized) {
   Channel channel;
   channel.path = Channel::Path::rotation;
