@@ -18,10 +18,10 @@ HWY_ATTR inline DrawnLight select(bvec1 condition, const DrawnLight& yes, const 
           select(condition, yes.radiance, no.radiance), select(condition, yes.density, no.density)};
 }
 
-template <class Probe, uint32_t source_count>
-class PathVertex : public SurfaceKernel<Probe, source_count> {
+template <class Probe, uint32_t source_count, bool is_layered>
+class PathVertex : public SurfaceKernel<Probe, source_count, is_layered> {
  public:
-  using SurfaceKernel<Probe, source_count>::SurfaceKernel;
+  using SurfaceKernel<Probe, source_count, is_layered>::SurfaceKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
@@ -33,8 +33,7 @@ class PathVertex : public SurfaceKernel<Probe, source_count> {
     contribution_ = vec3(0.0f, 0.0f, 0.0f);
     shadow_ = next_ = no_ray();
     if (const Where here(*this, alive && hit.w == no_index); here.any()) {
-      const vec1 density =
-          sky_density * float(push_.sky_lights) / float(push_.lights);
+      const vec1 density = sky_density * float(push_.sky_lights) / float(push_.lights);
       const vec3 sky = path_.throughput * sky_radiance(frame, direction) * sky_weight(path_, density);
       added_ = select(this->active(), vec4(sky.x, sky.y, sky.z, 0.0f), added_);
     }
@@ -54,8 +53,12 @@ class PathVertex : public SurfaceKernel<Probe, source_count> {
   // What follows from the active invocations' hits.
   HWY_ATTR void scatter(const uvec4& hit, const vec3& direction) {
     const Surface surface = this->surface_of(hit, direction);
-    const Bsdf bsdf = surface_bsdf(surface, false);
-    const vec3 emitted = path_.throughput * surface.emission;
+    const Bsdf bsdf = surface_bsdf(surface, is_layered);
+    if (is_layered) {
+      const vec3 passed = path_.throughput * transmittance(surface, uintBitsToFloat(hit.x));
+      path_.throughput = select(this->active(), passed, path_.throughput);
+    }
+    const vec3 emitted = path_.throughput * emitted_radiance(surface);
     added_ = select(this->active(), vec4(emitted.x, emitted.y, emitted.z, 1.0f), added_);
     const auto draw = [&](uint use) HWY_ATTR { return this->draw(push_, vertex_pair(push_.vertex, use)); };
     const DrawnLight light = draw_light(surface, draw(of_light).x, draw(of_light_direction));
@@ -120,7 +123,7 @@ class PathVertex : public SurfaceKernel<Probe, source_count> {
   Ray shadow_, next_;
 };
 
-LODESTONE_SURFACE_BLOCK_FUNCTION(path, PathVertex)
+LODESTONE_LAYERED_SURFACE_BLOCK_FUNCTION(path, PathVertex)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -13,10 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
-template <class Probe, uint32_t source_count>
-class Shade : public SurfaceKernel<Probe, source_count> {
+template <class Probe, uint32_t source_count, bool is_layered>
+class Shade : public SurfaceKernel<Probe, source_count, is_layered> {
  public:
-  using SurfaceKernel<Probe, source_count>::SurfaceKernel;
+  using SurfaceKernel<Probe, source_count, is_layered>::SurfaceKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
@@ -28,7 +28,7 @@ class Shade : public SurfaceKernel<Probe, source_count> {
     uvec4 shadow_along(0u, 0u, 0u, floatBitsToUint(vec1(-1.0f)));
     if (const Where here(*this, hit.w != no_index); here.any()) {
       const Surface surface = this->surface_of(hit, direction);
-      emitted = select(this->active(), surface.emission, emitted);
+      emitted = select(this->active(), emitted_radiance(surface), emitted);
       alpha = select(this->active(), 1.0f, alpha);
       const vec2 xi = this->draw(push_, pair_sky + push_.light);
       const LightSample light = sample_light(lights_[push_.light], frame, surface, xi);
@@ -57,7 +57,7 @@ class Shade : public SurfaceKernel<Probe, source_count> {
   RayPush push_ = this->template push<RayPush>();
 };
 
-LODESTONE_SURFACE_BLOCK_FUNCTION(shade, Shade)
+LODESTONE_LAYERED_SURFACE_BLOCK_FUNCTION(shade, Shade)
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

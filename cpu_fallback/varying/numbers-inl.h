@@ -155,6 +155,9 @@ HWY_ATTR inline vec1 uintBitsToFloat(uvec1 x) {
   return hn::BitCast(Floats(), x.v);
 }
 
+HWY_ATTR inline bvec1 select(bvec1 condition, bvec1 yes, bvec1 no) {
+  return (condition && yes) || (!condition && no);
+}
 HWY_ATTR inline vec1 select(bvec1 condition, vec1 yes, vec1 no) {
   return hn::IfThenElse(condition.mask, yes.v, no.v);
 }

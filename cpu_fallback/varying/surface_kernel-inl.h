@@ -19,6 +19,8 @@ HWY_ATTR inline Ray select(bvec1 condition, const Ray& yes, const Ray& no) {
           select(condition, yes.direction, no.direction), select(condition, yes.tmax, no.tmax)};
 }
 
+// Without `is_layered` both must be plain.
+template <bool is_layered = true>
 HWY_ATTR inline Surface select(bvec1 condition, const Surface& yes, const Surface& no) {
   Surface s;
   s.position = select(condition, yes.position, no.position);
@@ -33,11 +35,26 @@ HWY_ATTR inline Surface select(bvec1 condition, const Surface& yes, const Surfac
   s.roughness = select(condition, yes.roughness, no.roughness);
   s.occlusion = select(condition, yes.occlusion, no.occlusion);
   s.texcoord = select(condition, yes.texcoord, no.texcoord);
+  if constexpr (is_layered) {
+    s.f0 = select(condition, yes.f0, no.f0);
+    s.f90 = select(condition, yes.f90, no.f90);
+    s.ior = select(condition, yes.ior, no.ior);
+    s.transmission = select(condition, yes.transmission, no.transmission);
+    s.solid = select(condition, yes.solid, no.solid);
+    s.inside = select(condition, yes.inside, no.inside);
+    s.attenuation = select(condition, yes.attenuation, no.attenuation);
+    s.clearcoat = select(condition, yes.clearcoat, no.clearcoat);
+    s.clearcoat_roughness = select(condition, yes.clearcoat_roughness, no.clearcoat_roughness);
+    s.clearcoat_normal = select(condition, yes.clearcoat_normal, no.clearcoat_normal);
+  } else {
+    make_plain(s);
+  }
   return s;
 }
 
-// `source_count` is `sources` of that header, at compile time as in the kernels.
-template <class Probe, uint32_t source_count>
+// `source_count` and `is_layered` are `sources` and `layered` of that header, at compile time as in the
+// kernels.
+template <class Probe, uint32_t source_count, bool is_layered = false>
 class SurfaceKernel : public VaryingKernel<Probe> {
  public:
   using VaryingKernel<Probe>::VaryingKernel;
@@ -55,7 +72,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Structs<TextureRecord> textures = this->template structs<TextureRecord>(14);
   Structs<FrameRecord> frames = this->template structs<FrameRecord>(15);
 
-  static constexpr uint32_t sources = source_count;
+  static constexpr uint32_t sources = source_count, layered = is_layered ? 1 : 0;
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)
 #define LOAD1(result, buffer, i) result = this->load(buffer, i)
 #define WHERE(condition) if (const Where here(*this, condition); here.any())
@@ -99,7 +116,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
     bool first = true;
     for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
       const Surface here = surface_at(material, point, direction);
-      surface = first ? here : select(this->active(), here, surface);
+      surface = first ? here : select<is_layered>(this->active(), here, surface);
       first = false;
     });
     return surface;
@@ -119,6 +136,20 @@ class SurfaceKernel : public VaryingKernel<Probe> {
                              render::Counters* counters) {                                           \
     (dispatch.constants[0] == 1 ? NAME##_of_one_block : NAME##_of_three_block)(dispatch, begin, end, \
                                                                                counters);            \
+  }
+
+// The same for a pass whose template has a third argument: whether the dispatch's second constant is not 0.
+#define LODESTONE_LAYERED_SURFACE_BLOCK_FUNCTION(NAME, PASS)                                       \
+  template <class Probe, uint32_t source_count>                                                    \
+  using PASS##OfPlain = PASS<Probe, source_count, false>;                                          \
+  template <class Probe, uint32_t source_count>                                                    \
+  using PASS##OfLayered = PASS<Probe, source_count, true>;                                         \
+  LODESTONE_SURFACE_BLOCK_FUNCTION(NAME##_plain, PASS##OfPlain)                                    \
+  LODESTONE_SURFACE_BLOCK_FUNCTION(NAME##_layered, PASS##OfLayered)                                \
+  HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,            \
+                             render::Counters* counters) {                                         \
+    (dispatch.constants[1] == 0 ? NAME##_plain_block : NAME##_layered_block)(dispatch, begin, end, \
+                                                                             counters);            \
   }
 
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE

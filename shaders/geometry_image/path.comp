@@ -68,8 +68,9 @@ void main() {
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);
-    Bsdf bsdf = surface_bsdf(surface, false);
-    added = vec4(path.throughput * surface.emission, 1.0);
+    Bsdf bsdf = surface_bsdf(surface, layered != 0u);
+    if (layered != 0u) path.throughput = path.throughput * transmittance(surface, uintBitsToFloat(hit.x));
+    added = vec4(path.throughput * emitted_radiance(surface), 1.0);
     uint px;
     uint py;
     ray_pixel(push.first_ray + index, frame.width, frame.height, px, py);

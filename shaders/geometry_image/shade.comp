@@ -34,7 +34,7 @@ void main() {
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);
-    emitted = surface.emission;
+    emitted = emitted_radiance(surface);
     alpha = 1.0;
     uint px;
     uint py;

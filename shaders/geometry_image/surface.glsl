@@ -22,6 +22,7 @@ STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
 
 layout(constant_id = 2) const uint sources = 1u;
+layout(constant_id = 3) const uint layered = 0u;
 
 #define WHERE(condition) if (condition)
 #define SET(variable, value) variable = value

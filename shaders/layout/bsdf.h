@@ -17,18 +17,19 @@ struct Bsdf {
   vec3 geometric;  // unit normals, all on the viewer's side
   vec3 normal;
   vec3 coat_normal;
-  vec3 view;          // to the viewer, unit length
-  vec3 diffuse;       // albedo of the diffuse lobe
-  vec3 specular;      // reflectance at normal incidence
-  vec3 transmitted;   // what a lobe through the surface lets through of what is not reflected
-  vec1 alpha;         // GGX, of reflection and transmission
-  vec1 coat;          // share of the surface that is coated
-  vec1 coat_alpha;    // GGX
-  vec1 eta;           // refractive index on the viewer's side over that on the other
-  bvec1 solid;        // light through it is refracted; else it is a thin wall, which light passes straight
-  bool layered;       // the same everywhere: whether there are coats and transmission to look at
-  vec1 base;          // what the coat leaves to the lobes below
-  vec1 chance_coat;   // of each lobe to be sampled; they add up to 1
+  vec3 view;         // to the viewer, unit length
+  vec3 diffuse;      // albedo of the diffuse lobe
+  vec3 specular;     // reflectance at normal incidence ...
+  vec1 grazing;      // ... and at grazing angles
+  vec3 transmitted;  // what a lobe through the surface lets through of what is not reflected
+  vec1 alpha;        // GGX, of reflection and transmission
+  vec1 coat;         // share of the surface that is coated
+  vec1 coat_alpha;   // GGX
+  vec1 eta;          // refractive index on the viewer's side over that on the other
+  bvec1 solid;       // light through it is refracted; else it is a thin wall, which light passes straight
+  bool layered;      // the same everywhere: whether there are coats and transmission to look at
+  vec1 base;         // what the coat leaves to the lobes below
+  vec1 chance_coat;  // of each lobe to be sampled; they add up to 1
   vec1 chance_specular;
   vec1 chance_transmitted;
 };
@@ -43,8 +44,7 @@ FN vec3 interface_fresnel(IN(Bsdf) b, vec1 cosine) {
   vec1 beyond = b.eta * b.eta * (1.0f - cosine * cosine);
   vec1 refracted = sqrt(max2(1.0f - beyond, 0.0f));
   vec1 c = select(b.solid && b.eta > 1.0f, refracted, cosine);
-  vec3 one = vec3(1.0f, 1.0f, 1.0f);
-  return b.specular + (one - b.specular) * fresnel_power(c);
+  return b.specular + (vec3(b.grazing, b.grazing, b.grazing) - b.specular) * fresnel_power(c);
 }
 FN vec1 coat_fresnel(vec1 cosine) {
   return 0.04f + 0.96f * fresnel_power(cosine);
@@ -67,25 +67,37 @@ FN Bsdf with_chances(Bsdf b) {
   return b;
 }
 
+// A normal map, or the normals of a coarse mesh at its silhouette, may turn a normal away from the viewer,
+// who would see nothing reflected then.
+FN vec3 visible_normal(IN(Surface) s, vec3 normal) {
+  vec1 n_v = dot3(normal, s.view);
+  vec3 turned = normalize_or(normal + s.view * (1e-3f - n_v), s.geometric);
+  return select(n_v < 1e-3f, turned, normal);
+}
+
+// What is left of light that came `distance` through the solid, where the ray came from within one.
+FN vec3 transmittance(IN(Surface) s, vec1 distance) {
+  vec3 depth = s.attenuation * (distance * -1.44269504f);
+  vec3 left = vec3(exp2_(depth.x), exp2_(depth.y), exp2_(depth.z));
+  return select(s.solid && s.inside, left, vec3(1.0f, 1.0f, 1.0f));
+}
+
 // Of a surface whose normals are on the viewer's side.
 FN Bsdf surface_bsdf(IN(Surface) s, bool layered) {
   Bsdf b;
   b.geometric = s.geometric;
   b.view = s.view;
-  // A normal map, or the normals of a coarse mesh at its silhouette, may turn a normal away from the viewer,
-  // who would see nothing reflected then.
-  vec1 n_v = dot3(s.normal, s.view);
-  vec3 turned = normalize_or(s.normal + s.view * (1e-3f - n_v), s.geometric);
-  b.normal = select(n_v < 1e-3f, turned, s.normal);
-  b.coat_normal = b.normal;
+  b.normal = visible_normal(s, s.normal);
   b.diffuse = diffuse_color(s);
   b.specular = specular_color(s);
-  b.transmitted = vec3(0.0f, 0.0f, 0.0f);
+  b.grazing = grazing_reflectance(s);
+  b.transmitted = s.albedo * ((1.0f - s.metallic) * s.transmission);
   b.alpha = s.roughness * s.roughness;
-  b.coat = 0.0f;
-  b.coat_alpha = 0.0f;
-  b.eta = 1.0f;
-  b.solid = false;
+  b.coat = s.clearcoat;
+  b.coat_alpha = s.clearcoat_roughness * s.clearcoat_roughness;
+  b.coat_normal = visible_normal(s, s.clearcoat_normal);
+  b.eta = select(s.inside, s.ior, 1.0f / s.ior);
+  b.solid = s.solid;
   b.layered = layered;
   return with_chances(b);
 }
@@ -164,8 +176,9 @@ FN GgxReflection ggx_transmission(IN(Bsdf) b, vec3 direction) {
                  (n_v * (1.0f + lambda_view) * max2(stretch * stretch, 1e-12f));
   GgxReflection result;
   result.density = select(b.solid, select(v_h > 0.0f && l_h < 0.0f, density, vec1(0.0f)), thin.density);
-  result.unmasked = select(
-      b.solid, (1.0f + lambda_view) / (1.0f + lambda_view + ggx_lambda(max2(n_l, 1e-4f), alpha)), thin.unmasked);
+  result.unmasked =
+      select(b.solid, (1.0f + lambda_view) / (1.0f + lambda_view + ggx_lambda(max2(n_l, 1e-4f), alpha)),
+             thin.unmasked);
   result.view_facet = select(b.solid, saturate(v_h), thin.view_facet);
   return result;
 }
@@ -191,8 +204,7 @@ FN BsdfValue bsdf_value(IN(Bsdf) b, vec3 direction) {
   vec3 through = zero;
   vec1 through_density = 0.0f;
   if (b.layered) {
-    GgxReflection coat =
-        ggx_reflection(b.coat_normal, b.view, direction, max2(b.coat_alpha, smallest_alpha));
+    GgxReflection coat = ggx_reflection(b.coat_normal, b.view, direction, max2(b.coat_alpha, smallest_alpha));
     bvec1 coated = !(b.coat_alpha < smallest_alpha) && dot3(b.coat_normal, direction) > 0.0f;
     vec1 coat_density = select(coated, coat.density, vec1(0.0f));
     vec1 coat_value = b.coat * coat_fresnel(coat.view_facet) * coat_density * coat.unmasked;
@@ -253,9 +265,8 @@ FN BsdfSample sample_bsdf(IN(Bsdf) b, vec1 lobe, vec2 xi) {
   BsdfValue rough = bsdf_value(b, result.direction);
   vec3 fresnel = interface_fresnel(b, v_h);
   vec1 coat = b.coat * coat_fresnel(v_h);
-  vec3 smooth_value =
-      select(of_coat, vec3(coat, coat, coat),
-             select(of_specular, fresnel, b.transmitted * (one - fresnel)) * b.base);
+  vec3 smooth_value = select(of_coat, vec3(coat, coat, coat),
+                             select(of_specular, fresnel, b.transmitted * (one - fresnel)) * b.base);
   vec1 chance = select(of_coat, b.chance_coat, select(of_specular, b.chance_specular, b.chance_transmitted));
   possible = possible && (mirror || rough.density > 0.0f);
   vec3 weight = select(mirror, smooth_value / chance, rough.value / rough.density);

@@ -61,9 +61,28 @@ struct MaterialRecord {
   uint normal_texture;
   uint occlusion_texture;
   uint emissive_texture;
+  // What follows is for kernels with `layered` (layout/surface.h).
+  float ior;  // at most highest_ior
+  float f0;   // reflectance straight on, by the ior
+  vec3 specular_color;
+  float specular;
+  vec3 attenuation;  // absorbed per unit of length: exp(-attenuation * length) passes
+  float transmission;
+  float clearcoat;
+  float clearcoat_roughness;
+  float clearcoat_normal_scale;
+  uint solid;  // 1: refracts, 0: a thin wall
+  uint specular_texture;
+  uint specular_color_texture;
+  uint transmission_texture;
+  uint clearcoat_texture;
+  uint clearcoat_roughness_texture;
+  uint clearcoat_normal_texture;
   uint pad0;
   uint pad1;
 };
+
+CONST float highest_ior = 1e6f;  // stands for an infinite one
 
 CONST uint wrap_repeat = 0u;
 CONST uint wrap_clamp = 1u;

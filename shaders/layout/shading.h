@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light and material: the metallic-roughness model of glTF 2.0 (appendix B) with GGX, direct light only.
+// Light and material: the metallic-roughness model of glTF 2.0 (appendix B) with GGX, direct light only. Of
+// KHR_materials_ior, specular and clearcoat what reflects; of KHR_materials_transmission that what passes
+// through is not scattered back.
 #ifndef LODESTONE_LAYOUT_SHADING_H
 #define LODESTONE_LAYOUT_SHADING_H
 
@@ -95,7 +97,32 @@ struct Surface {
   vec1 roughness;
   vec1 occlusion;
   vec2 texcoord;
+  // Of the dielectric part: reflectance straight on and at grazing angles.
+  vec3 f0;
+  vec1 f90;
+  vec1 ior;
+  vec1 transmission;  // share of the light that enters that passes through
+  bvec1 solid;        // refracts; else a thin wall
+  bvec1 inside;       // the ray came from within: from the side that the vertices' normals point away from
+  vec3 attenuation;   // of the solid: exp(-attenuation * length) passes
+  vec1 clearcoat;
+  vec1 clearcoat_roughness;
+  vec3 clearcoat_normal;  // unit length, turned to the viewer
 };
+
+// A dielectric of an ior of 1.5 that nothing passes through, without a coat.
+FN void make_plain(INOUT(Surface) s) {
+  s.f0 = vec3(0.04f, 0.04f, 0.04f);
+  s.f90 = 1.0f;
+  s.ior = 1.5f;
+  s.transmission = 0.0f;
+  s.solid = false;
+  s.inside = false;
+  s.attenuation = vec3(0.0f, 0.0f, 0.0f);
+  s.clearcoat = 0.0f;
+  s.clearcoat_roughness = 0.0f;
+  s.clearcoat_normal = s.normal;
+}
 
 FN vec1 fresnel_power(vec1 cosine) {
   vec1 x = saturate(1.0f - cosine);
@@ -103,15 +130,30 @@ FN vec1 fresnel_power(vec1 cosine) {
   return x2 * x2 * x;
 }
 
+// Reflectance straight on, and at grazing angles.
 FN vec3 specular_color(IN(Surface) s) {
-  return mix3(vec3(0.04f, 0.04f, 0.04f), s.albedo, s.metallic);
+  return mix3(s.f0, s.albedo, s.metallic);
+}
+FN vec1 grazing_reflectance(IN(Surface) s) {
+  return 1.0f - (1.0f - s.f90) * (1.0f - s.metallic);  // exactly 1 where f90 is
 }
 FN vec3 diffuse_color(IN(Surface) s) {
-  return s.albedo * (1.0f - s.metallic);
+  return s.albedo * (1.0f - s.metallic) * (1.0f - s.transmission);
 }
 
-// The BRDF times the cosine, for light from `to_light` (unit length).
-FN vec3 reflected(IN(Surface) s, vec3 to_light) {
+// GGX: the distribution of microfacets times their shadowing and masking over 4 n_l n_v; cosines above 0.
+FN vec1 microfacets(vec1 roughness, vec1 n_l, vec1 n_v, vec1 n_h) {
+  vec1 alpha = max2(roughness * roughness, 1e-3f);
+  vec1 alpha2 = alpha * alpha;
+  vec1 d_term = n_h * n_h * (alpha2 - 1.0f) + 1.0f;
+  vec1 distribution = alpha2 / (pi * d_term * d_term);
+  vec1 masking = 0.5f / (n_l * sqrt(n_v * n_v * (1.0f - alpha2) + alpha2) +
+                         n_v * sqrt(n_l * n_l * (1.0f - alpha2) + alpha2));
+  return distribution * masking;
+}
+
+// Below the coat.
+FN vec3 base_reflected(IN(Surface) s, vec3 to_light) {
   vec1 n_l = dot3(s.normal, to_light);
   bvec1 lit = n_l > 0.0f;
   if (!any_lane(lit)) return vec3(0.0f, 0.0f, 0.0f);
@@ -119,17 +161,38 @@ FN vec3 reflected(IN(Surface) s, vec3 to_light) {
   vec3 half_way = normalize_or(to_light + s.view, s.normal);
   vec1 n_h = saturate(dot3(s.normal, half_way));
   vec1 v_h = saturate(dot3(s.view, half_way));
-  vec1 alpha = max2(s.roughness * s.roughness, 1e-3f);
-  vec1 alpha2 = alpha * alpha;
-  vec1 d_term = n_h * n_h * (alpha2 - 1.0f) + 1.0f;
-  vec1 distribution = alpha2 / (pi * d_term * d_term);
-  vec1 masking = 0.5f / (n_l * sqrt(n_v * n_v * (1.0f - alpha2) + alpha2) +
-                         n_v * sqrt(n_l * n_l * (1.0f - alpha2) + alpha2));
   vec3 f0 = specular_color(s);
-  vec3 fresnel = f0 + (vec3(1.0f, 1.0f, 1.0f) - f0) * fresnel_power(v_h);
+  vec1 f90 = grazing_reflectance(s);
+  vec3 fresnel = f0 + (vec3(f90, f90, f90) - f0) * fresnel_power(v_h);
   vec3 diffuse = diffuse_color(s) * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (1.0f / pi);
-  vec3 sent = (diffuse + fresnel * (distribution * masking)) * n_l;
+  vec3 sent = (diffuse + fresnel * microfacets(s.roughness, n_l, n_v, n_h)) * n_l;
   return select(lit, sent, vec3(0.0f, 0.0f, 0.0f));
+}
+
+// What is seen of `base` below the coat and of `coat`, light that the coat sends were it a mirror
+// (KHR_materials_clearcoat).
+FN vec3 coated(IN(Surface) s, vec3 base, vec3 coat) {
+  vec1 facing = abs1(dot3(s.clearcoat_normal, s.view));
+  vec1 share = s.clearcoat * (0.04f + 0.96f * fresnel_power(facing));
+  return select(s.clearcoat > 0.0f, mix3(base, coat, share), base);
+}
+
+// The BRDF times the cosine, for light from `to_light` (unit length). Nothing of what passes through.
+FN vec3 reflected(IN(Surface) s, vec3 to_light) {
+  vec3 base = base_reflected(s, to_light);
+  if (!any_lane(s.clearcoat > 0.0f)) return base;
+  vec1 n_l = dot3(s.clearcoat_normal, to_light);
+  vec1 n_v = max2(dot3(s.clearcoat_normal, s.view), 1e-4f);
+  vec3 half_way = normalize_or(to_light + s.view, s.clearcoat_normal);
+  vec1 n_h = saturate(dot3(s.clearcoat_normal, half_way));
+  vec1 coat = select(n_l > 0.0f, microfacets(s.clearcoat_roughness, n_l, n_v, n_h) * n_l, 0.0f);
+  return coated(s, base, vec3(coat, coat, coat));
+}
+
+// What the surface sends to the viewer by itself.
+FN vec3 emitted_radiance(IN(Surface) s) {
+  if (!any_lane(s.clearcoat > 0.0f)) return s.emission;
+  return coated(s, s.emission, vec3(0.0f, 0.0f, 0.0f));
 }
 
 // Two unit vectors that make a frame with `axis` (Duff et al. 2017, "Building an orthonormal basis,
@@ -175,8 +238,14 @@ FN vec3 sky_specular(IN(Surface) s) {
   vec1 a004 = min2(r0 * r0, exp2_(-9.28f * n_v)) * r0 + r1;
   vec1 scale = -1.04f * a004 + r2;
   vec1 bias = 1.04f * a004 + r3;
-  vec3 color = specular_color(s) * scale + vec3(bias, bias, bias);
+  vec1 edge = bias * grazing_reflectance(s);
+  vec3 color = specular_color(s) * scale + vec3(edge, edge, edge);
   return max3(color, vec3(0.0f, 0.0f, 0.0f));
+}
+
+FN vec3 mirrored_sky(IN(FrameRecord) frame, vec3 normal, vec3 view) {
+  vec3 mirror = normal * (2.0f * dot3(normal, view)) - view;
+  return sky_radiance(frame, normalize_or(mirror, normal));
 }
 
 // What arrives at a point from a light that has one direction.
@@ -223,12 +292,11 @@ FN LightSample sample_light(IN(LightRecord) light, IN(FrameRecord) frame, IN(Sur
   if (light.kind == light_sky) {
     result.direction = cosine_direction(s.normal, xi);
     result.distance = 1e30f;
-    vec3 mirror = s.normal * (2.0f * dot3(s.normal, s.view)) - s.view;
     vec3 f = sky_specular(s);
-    result.radiance =
-        (diffuse_color(s) * sky_radiance(frame, result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
-         f * sky_radiance(frame, normalize_or(mirror, s.normal))) *
-        s.occlusion;
+    vec3 sent = diffuse_color(s) * sky_radiance(frame, result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
+                f * mirrored_sky(frame, s.normal, s.view);
+    if (any_lane(s.clearcoat > 0.0f)) sent = coated(s, sent, mirrored_sky(frame, s.clearcoat_normal, s.view));
+    result.radiance = sent * s.occlusion;
     return result;
   }
   Arrival arrival = arriving_light(light, s.position, s.normal);

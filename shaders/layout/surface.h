@@ -2,7 +2,9 @@
 // From a hit to the surface there: which triangle of the input, where on it, which material, which normal.
 // Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
 // those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
-// in both. So does `sources`, the same in the whole dispatch: 3 where the atlas has mapped charts, else 1.
+// in both. So do two numbers that are the same in the whole dispatch: `sources`, 3 where the atlas has mapped
+// charts, else 1; and `layered`, 1 where a material may reflect in another way than metallic-roughness says,
+// be transparent or coated. Where that is 0 the Surface is a plain one whatever the material says.
 
 // A point of the input, and its share in what is found at a hit.
 struct SurfaceSource {
@@ -243,6 +245,54 @@ FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
   return tangent;
 }
 
+// `normal` as the normal map `map` bends it.
+FN vec3 bent_normal(uint map, float scale, IN(SurfacePoint) point, vec4 uvs, vec3 normal) {
+  vec4 tangent = tangent_at(point, textures[map].texcoord, normal);
+  vec3 t = vec3(tangent.x, tangent.y, tangent.z);
+  t = normalize_or(t - normal * dot3(normal, t), vec3(0.0f, 0.0f, 0.0f));
+  vec3 b = cross3(normal, t) * tangent.w;
+  vec4 texel = sample_texture(map, uvs, false);
+  vec3 bent = t * ((texel.x * 2.0f - 1.0f) * scale) + b * ((texel.y * 2.0f - 1.0f) * scale) +
+              normal * (texel.z * 2.0f - 1.0f);
+  return normalize_or(bent, normal);
+}
+
+// `s.normal` is that of the vertices, and neither normal is turned to the viewer yet.
+FN void add_layers(INOUT(Surface) s, IN(MaterialRecord) material, IN(SurfacePoint) point, vec4 uvs) {
+  count_read(20u);
+  // Not by the order of the vertices, which a mirroring node turns round.
+  vec1 outward = select(dot3(s.geometric, s.normal) < 0.0f, -1.0f, 1.0f);
+  s.inside = outward * dot3(s.geometric, s.view) < 0.0f;
+  s.ior = material.ior;
+  s.solid = material.solid != 0u;
+  s.attenuation = material.attenuation;
+  s.f90 = material.specular;
+  if (material.specular_texture != no_index)
+    s.f90 = s.f90 * sample_texture(material.specular_texture, uvs, false).w;
+  vec3 tint = material.specular_color;
+  if (material.specular_color_texture != no_index) {
+    vec4 texel = sample_texture(material.specular_color_texture, uvs, true);
+    tint = tint * vec3(texel.x, texel.y, texel.z);
+  }
+  s.f0 = min3(tint * material.f0, vec3(1.0f, 1.0f, 1.0f)) * s.f90;
+  s.transmission = material.transmission;
+  if (material.transmission_texture != no_index)
+    s.transmission = s.transmission * sample_texture(material.transmission_texture, uvs, false).x;
+  s.clearcoat = material.clearcoat;
+  if (material.clearcoat_texture != no_index)
+    s.clearcoat = s.clearcoat * sample_texture(material.clearcoat_texture, uvs, false).x;
+  s.clearcoat_roughness = material.clearcoat_roughness;
+  if (material.clearcoat_roughness_texture != no_index) {
+    vec1 texel = sample_texture(material.clearcoat_roughness_texture, uvs, false).y;
+    s.clearcoat_roughness = s.clearcoat_roughness * texel;
+  }
+  s.clearcoat_normal = s.normal;
+  if (material.clearcoat_normal_texture != no_index) {
+    s.clearcoat_normal =
+        bent_normal(material.clearcoat_normal_texture, material.clearcoat_normal_scale, point, uvs, s.normal);
+  }
+}
+
 FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 from_viewer) {
   Surface s;
   vec4 uvs = texcoords_at(point);
@@ -283,18 +333,17 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
     vec4 texel = sample_texture(material.emissive_texture, uvs, true);
     s.emission = s.emission * vec3(texel.x, texel.y, texel.z);
   }
-  if (material.normal_texture != no_index) {
-    vec4 tangent = tangent_at(point, textures[material.normal_texture].texcoord, s.normal);
-    vec3 t = vec3(tangent.x, tangent.y, tangent.z);
-    t = normalize_or(t - s.normal * dot3(s.normal, t), vec3(0.0f, 0.0f, 0.0f));
-    vec3 b = cross3(s.normal, t) * tangent.w;
-    vec4 texel = sample_texture(material.normal_texture, uvs, false);
-    vec3 bent = t * ((texel.x * 2.0f - 1.0f) * material.normal_scale) +
-                b * ((texel.y * 2.0f - 1.0f) * material.normal_scale) + s.normal * (texel.z * 2.0f - 1.0f);
-    s.normal = normalize_or(bent, s.normal);
-  }
+  if (layered != 0u) add_layers(s, material, point, uvs);
+  if (material.normal_texture != no_index)
+    s.normal = bent_normal(material.normal_texture, material.normal_scale, point, uvs, s.normal);
   // Both sides are lit alike: turn the normals to the viewer, the shading normal with the geometric one.
   s.geometric = select(dot3(s.geometric, s.view) < 0.0f, s.geometric * -1.0f, s.geometric);
   s.normal = select(dot3(s.normal, s.geometric) < 0.0f, s.normal * -1.0f, s.normal);
+  if (layered == 0u) {
+    make_plain(s);
+  } else {
+    s.clearcoat_normal =
+        select(dot3(s.clearcoat_normal, s.geometric) < 0.0f, s.clearcoat_normal * -1.0f, s.clearcoat_normal);
+  }
   return s;
 }

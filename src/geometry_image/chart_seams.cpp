@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/geometry_image/chart_seams.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lodestone/base/disjoint_sets.h"
@@ -67,9 +68,9 @@ class SeamFinder {
     }
   }
   static bool has_texture(const scene::Material& m) {
-    return m.base_color_texture.image != scene::none || m.metallic_roughness_texture.image != scene::none ||
-           m.normal_texture.image != scene::none || m.occlusion_texture.image != scene::none ||
-           m.emissive_texture.image != scene::none;
+    const auto textures = m.textures();
+    return std::any_of(textures.begin(), textures.end(),
+                       [](const scene::Texture* t) { return t->image != scene::none; });
   }
 
   // The faces or the normals for shading turn by more than a smooth surface of these triangles would.

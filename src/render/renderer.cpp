@@ -217,7 +217,7 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, Trace
   if (!tables.has_masks) return true;
   do {
     run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), tracing.pending().id()}),
-        layout::CountPush{count}, count, {tables.sources});
+        layout::CountPush{count}, count, {tables.sources, tables.layered});
     if (tracing.take_pending() == 0) return true;
   } while (tracing.trace(geometry, rays, count, query, interrupted));
   return false;
@@ -238,7 +238,7 @@ bool Renderer::State::eye_sample(layout::RayPush push, const Interrupted& interr
     run(passes::shade,
         surface_buffers(
             primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
-        push, push.rays, {tables.sources});
+        push, push.rays, {tables.sources, tables.layered});
     if (!add_unblocked(push.rays, interrupted)) return false;
   }
   return true;
@@ -248,7 +248,7 @@ bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrup
   run(passes::ambient,
       surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
       layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
-      rays.rays, {tables.sources});
+      rays.rays, {tables.sources, tables.layered});
   return add_unblocked(rays.rays, interrupted);
 }
 
@@ -263,7 +263,7 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
     run(passes::path,
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
                                   radiance.id(), paths.id(), alive.id()}),
-        push, push.rays, {tables.sources});
+        push, push.rays, {tables.sources, tables.layered});
     uint32_t left = 0;
     backend.download(alive.id(), std::as_writable_bytes(std::span(&left, 1)), 0);
     if (!add_unblocked(push.rays, interrupted)) return false;
@@ -292,12 +292,16 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, {.steps = true}, interrupted)) return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
-        count, {tables.sources});
+        count, {tables.sources, tables.layered});
   }
   for (uint32_t sample = 0; sample < settings.spp; ++sample) {
-    const layout::RayPush push{
-        first_ray, count, sample, settings.spp == 1 ? 1u : 0u, has_lens() ? 0u : 1u,
-        0,         sample == 0 ? 1u : 0u};
+    const layout::RayPush push{first_ray,
+                               count,
+                               sample,
+                               settings.spp == 1 ? 1u : 0u,
+                               has_lens() ? 0u : 1u,
+                               0,
+                               sample == 0 ? 1u : 0u};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, {}, interrupted)) return false;
     if (!integrate(push, interrupted)) return false;

@@ -58,6 +58,37 @@ void upload_deltas(SceneTables& tables, Backend& backend, const scene::Assembly&
   tables.influences = make_buffer(backend, "influences", 4, assembly.influences);
 }
 
+float dielectric_ior(const scene::Material& material) {
+  return material.ior == 0 ? layout::highest_ior : std::min(material.ior, layout::highest_ior);
+}
+
+// Of a surface seen straight on; 0.04f for 1.5.
+float reflectance(float ior) {
+  if (ior == layout::highest_ior) return 1;
+  const double root = (double(ior) - 1) / (double(ior) + 1);
+  return static_cast<float>(root * root);
+}
+
+// Per unit of length. Finite, and black is a colour of which nothing is seen.
+vec3 attenuation(const scene::Material& material) {
+  if (material.attenuation_distance == 0) return vec3(0);
+  constexpr double darkest = 1e-6, most = 1e30;
+  vec3 result;
+  for (int i = 0; i < 3; ++i) {
+    const double depth = std::log(1 / std::max(double(material.attenuation_color[i]), darkest));
+    result[i] = static_cast<float>(std::min(depth / double(material.attenuation_distance), most));
+  }
+  return result;
+}
+
+// Whether it is more than a plain Surface (layout/surface.h).
+bool is_layered(const layout::MaterialRecord& material) {
+  return material.ior != 1.5f || material.specular != 1 || material.specular_color != vec3(1) ||
+         material.specular_texture != layout::no_index ||
+         material.specular_color_texture != layout::no_index || material.transmission > 0 ||
+         material.clearcoat > 0;
+}
+
 std::vector<layout::MaterialRecord> material_records(const scene::Scene& scene,
                                                      std::vector<layout::TextureRecord>& textures,
                                                      const std::vector<uint32_t>& image_offsets) {
@@ -77,8 +108,7 @@ std::vector<layout::MaterialRecord> material_records(const scene::Scene& scene,
     textures.push_back(record);
     return static_cast<uint32_t>(textures.size() - 1);
   };
-  std::vector<layout::MaterialRecord> records;
-  for (const scene::Material& material : scene.materials) {
+  const auto record_of = [&](const scene::Material& material) {
     layout::MaterialRecord record{};
     record.base_color = material.base_color;
     record.emissive = material.emissive;
@@ -93,15 +123,32 @@ std::vector<layout::MaterialRecord> material_records(const scene::Scene& scene,
     record.normal_texture = add_texture(material.normal_texture);
     record.occlusion_texture = add_texture(material.occlusion_texture);
     record.emissive_texture = add_texture(material.emissive_texture);
-    records.push_back(record);
-  }
+    record.ior = dielectric_ior(material);
+    record.f0 = reflectance(record.ior);
+    record.specular_color = material.specular_color;
+    record.specular = material.specular;
+    record.attenuation = attenuation(material);
+    record.transmission = material.transmission;
+    record.clearcoat = material.clearcoat;
+    record.clearcoat_roughness = material.clearcoat_roughness;
+    record.clearcoat_normal_scale = material.clearcoat_normal_scale;
+    record.solid = material.thickness > 0 ? 1 : 0;
+    record.specular_texture = add_texture(material.specular_texture);
+    record.specular_color_texture = add_texture(material.specular_color_texture);
+    record.transmission_texture = add_texture(material.transmission_texture);
+    record.clearcoat_texture = add_texture(material.clearcoat_texture);
+    record.clearcoat_roughness_texture = add_texture(material.clearcoat_roughness_texture);
+    record.clearcoat_normal_texture = add_texture(material.clearcoat_normal_texture);
+    return record;
+  };
+  std::vector<layout::MaterialRecord> records;
+  for (const scene::Material& material : scene.materials) records.push_back(record_of(material));
   // Parts without a material are of this one.
-  layout::MaterialRecord grey{};
+  scene::Material grey;
   grey.base_color = vec4(0.55f, 0.55f, 0.55f, 1);
+  grey.metallic = 0;
   grey.roughness = 0.6f;
-  grey.base_color_texture = grey.metallic_roughness_texture = grey.normal_texture = layout::no_index;
-  grey.occlusion_texture = grey.emissive_texture = layout::no_index;
-  records.push_back(grey);
+  records.push_back(record_of(grey));
   return records;
 }
 
@@ -130,7 +177,9 @@ void upload_shading(SceneTables& tables, Backend& backend, const scene::Scene& s
   for (const scene::AssemblyPart& part : assembly.parts) {
     parts.push_back({part.material == scene::none ? grey : part.material, part.mesh, part.first_triangle,
                      part.first_mesh_triangle});
-    tables.has_masks = tables.has_masks || materials[parts.back().material].alpha_mask != 0;
+    const layout::MaterialRecord& material = materials[parts.back().material];
+    tables.has_masks = tables.has_masks || material.alpha_mask != 0;
+    if (is_layered(material)) tables.layered = 1;
   }
   tables.materials = make_buffer(backend, "materials", sizeof(layout::MaterialRecord), materials);
   tables.textures = make_buffer(backend, "textures", sizeof(layout::TextureRecord), textures);

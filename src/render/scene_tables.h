@@ -20,8 +20,8 @@ struct SceneTables {
   Buffer triangles, texel_map, leaf_map, charts;
   // Shading.
   Buffer texcoords, parts, materials, textures, images, srgb_table;
-  bool has_masks = false;  // some material cuts out texels
-  uint32_t sources = 1;    // layout/surface.h
+  bool has_masks = false;             // some material cuts out texels
+  uint32_t sources = 1, layered = 0;  // layout/surface.h
 };
 
 // Buffers of `name` filled with an array; arrays may be empty.

@@ -146,6 +146,23 @@ struct Material {
   bool alpha_mask = false;
   bool double_sided = false;
   Texture base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+  float ior = 1.5f;             // index of refraction, at least 1; 0: infinite, all light is reflected
+  float specular = 1;           // scales what the dielectric part reflects as a mirror does; texture: A
+  glm::vec3 specular_color{1};  // tints that seen straight on; texture: RGB, sRGB-encoded
+  Texture specular_texture, specular_color_texture;
+  float transmission = 0;        // share of the light that enters that passes through, tinted by base_color
+  Texture transmission_texture;  // R
+  float thickness = 0;  // 0: a wall too thin to bend light; more: the surface of a solid that refracts
+  // White light is of this colour behind so much of the solid, in scene units; distance 0: infinite, it stays
+  // white.
+  glm::vec3 attenuation_color{1};
+  float attenuation_distance = 0;
+  float clearcoat = 0, clearcoat_roughness = 0;  // a layer of its own on top, with an ior of 1.5
+  float clearcoat_normal_scale = 1;
+  Texture clearcoat_texture, clearcoat_roughness_texture,
+      clearcoat_normal_texture;  // R; G; as normal_texture
+
+  std::array<const Texture*, 11> textures() const;  // with an image or without
 };
 
 // The light from all directions that no surface blocks: bottom at -Y, horizon, top at +Y, blended by height;

@@ -272,13 +272,28 @@ class Validator {
               finite(m.normal_scale) && finite(m.occlusion_strength) && finite(m.alpha_cutoff),
           where, "a number that is not finite");
     check(is_light(m.emissive), where, "a glow that is negative or brighter than 1e30");
-    for (const Texture* t : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-                             &m.occlusion_texture, &m.emissive_texture}) {
+    layers(where, m);
+    for (const Texture* t : m.textures()) {
       check(t->image == none || t->image < scene_.images.size(), where,
             "a texture of an image that does not exist");
       check(t->texcoord < 2, where, "a texture of a set of texture coordinates other than 0 and 1");
       check(finite(t->u_row) && finite(t->v_row), where, "a texture transform that is not finite");
     }
+  }
+
+  void layers(const std::string& where, const Material& m) const {
+    const auto is_share = [](float x) { return x >= 0 && x <= 1; };
+    check(finite(m.ior) && (m.ior == 0 || m.ior >= 1), where, "an index of refraction below 1");
+    check(is_share(m.specular) && is_share(m.transmission) && is_share(m.clearcoat) &&
+              is_share(m.clearcoat_roughness),
+          where, "specular, transmission, clearcoat or its roughness outside 0 to 1");
+    check(is_light(m.specular_color), where, "a specular colour that is negative or brighter than 1e30");
+    check(finite(m.thickness) && m.thickness >= 0 && finite(m.attenuation_distance) &&
+              m.attenuation_distance >= 0,
+          where, "a thickness or attenuation distance that is negative or not finite");
+    for (glm::length_t i = 0; i < 3; ++i)
+      check(is_share(m.attenuation_color[i]), where, "an attenuation colour outside 0 to 1");
+    check(finite(m.clearcoat_normal_scale), where, "a number that is not finite");
   }
 
   void image(const std::string& where, const Image& i) const {
