@@ -39,7 +39,8 @@ CONST uint op_normalize = 26u;
 CONST uint op_exp2 = 27u;
 CONST uint op_log2 = 28u;
 CONST uint op_cos_sin = 29u;
-CONST uint op_count = 30u;
+CONST uint op_atan2 = 30u;
+CONST uint op_count = 31u;
 
 // A denormal, and the smallest normal number with it (a device that flushes decides before it rounds), as a
 // zero of the same sign.
@@ -64,6 +65,7 @@ FN uvec1 apply_function(uint op, vec1 x, vec1 y, vec1 z) {
   if (op == op_normalize) return mix_bits(normalize_or(vec3(x, y, z), vec3(1.0f, 2.0f, 3.0f)));
   if (op == op_exp2) return floatBitsToUint(exp2_(x));
   if (op == op_log2) return floatBitsToUint(log2_(select(x < 1e-30f, 2.0f, x)));
+  if (op == op_atan2) return floatBitsToUint(atan2_turns(x, y));
   vec2 cs = cos_sin_turns(select(x < 1e6f, select(x > -1e6f, x, 0.25f), 0.5f));
   return floatBitsToUint(cs.x) ^ (floatBitsToUint(cs.y) * 3u);
 }

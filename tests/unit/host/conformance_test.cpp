@@ -21,11 +21,11 @@ using layout::uvec4;
 constexpr uint32_t vector_count = 1u << 20;
 
 constexpr std::array<const char*, layout::op_count> operation_names = {
-    "x + y",       "x - y",      "x * y",      "x / y",         "sqrt",      "floor",
-    "-x",          "x < y",      "x <= y",     "x == y",        "x != y",    "min2",
-    "max2",        "x * y + z",  "dot3",       "cross3",        "uint(x)",   "int(x)",
-    "float(uint)", "float(int)", "round trip", "uint division", "int shift", "bit counts",
-    "x * 0.5",     "1 / x",      "normalize",  "exp2",          "log2",      "cos and sin"};
+    "x + y",         "x - y",       "x * y",      "x / y",   "sqrt",        "floor",      "-x",
+    "x < y",         "x <= y",      "x == y",     "x != y",  "min2",        "max2",       "x * y + z",
+    "dot3",          "cross3",      "uint(x)",    "int(x)",  "float(uint)", "float(int)", "round trip",
+    "uint division", "int shift",   "bit counts", "x * 0.5", "1 / x",       "normalize",  "exp2",
+    "log2",          "cos and sin", "atan2"};
 
 bool is_nan(uint32_t bits) {
   return (bits & 0x7fffffffu) > 0x7f800000u;
