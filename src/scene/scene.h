@@ -171,6 +171,19 @@ struct Sky {
   glm::vec3 top{0}, horizon{0}, bottom{0};
 };
 
+// The largest environment map: texels, which fill 2 GiB of a device.
+inline constexpr uint32_t max_environment_width = 16384, max_environment_height = 8192;
+
+// The same from a picture: equirectangular, the upper row around +Y, columns from -X by -Z, +X and +Z back to
+// -X, so that its centre is where +X is; row by row from the top, finite, not negative; W/sr/m2.
+struct Environment {
+  std::string file;
+  uint32_t width = 0, height = 0;
+  std::vector<glm::vec3> radiance;
+  float strength = 1;  // times this
+  float rotation = 0;  // degrees about +Y: by 90, what was at +X is at -Z
+};
+
 struct Scene {
   std::string name;  // file name or builtin:NAME
   std::vector<Mesh> meshes;
@@ -181,7 +194,8 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Material> materials;
   std::vector<Image> images;
-  std::optional<Sky> sky;  // where a file says nothing the renderer lights the scene itself
+  std::optional<Sky> sky;                  // where a file says nothing the renderer lights the scene itself
+  std::optional<Environment> environment;  // instead of the sky
 };
 
 // Throws Error(bad_input), naming scene.name, unless every index is in range, every array as long as it must

@@ -75,6 +75,7 @@ class Validator {
       check(finite(scene_.sky->top) && finite(scene_.sky->horizon) && finite(scene_.sky->bottom), "sky",
             "a colour is not finite");
     }
+    if (scene_.environment) environment(*scene_.environment);
   }
 
  private:
@@ -294,6 +295,19 @@ class Validator {
     for (glm::length_t i = 0; i < 3; ++i)
       check(is_share(m.attenuation_color[i]), where, "an attenuation colour outside 0 to 1");
     check(finite(m.clearcoat_normal_scale), where, "a number that is not finite");
+  }
+
+  void environment(const Environment& e) const {
+    const std::string where = "environment";
+    check(
+        e.width > 0 && e.height > 0 && e.width <= max_environment_width && e.height <= max_environment_height,
+        where, "no texels, or too many");
+    check(e.radiance.size() == uint64_t(e.width) * e.height, where, "not one radiance a texel");
+    check(finite(e.rotation), where, "a rotation that is not finite");
+    for (const glm::vec3& radiance : e.radiance) {
+      check(is_light(radiance) && is_light(radiance * e.strength), where,
+            "radiance that is negative or brighter than 1e30");
+    }
   }
 
   void image(const std::string& where, const Image& i) const {

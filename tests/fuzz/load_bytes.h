@@ -15,6 +15,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
+#include "lodestone/scene/environment.h"
 #include "lodestone/scene/load.h"
 
 namespace lodestone::fuzz {
@@ -26,13 +27,18 @@ inline scene::Scene load_as(const std::string& format, const std::filesystem::pa
   if (format == "ply") return scene::load_ply(path);
   if (format == "stl") return scene::load_stl(path);
   if (format == "height_map") return scene::load_height_map(path, {});
+  if (format == "environment") {
+    scene::Scene scene;
+    scene.environment = scene::load_environment(path);
+    return scene;
+  }
   throw std::logic_error("no loader for the format " + format);
 }
 
 // The name under which the bytes are loaded. Loaders choose by content what they can, so one name a format
 // will do. An OBJ file that names fuzz.obj as its material library is read as one too.
 inline std::string file_name(const std::string& format) {
-  return format == "height_map" ? "fuzz.png" : "fuzz." + format;
+  return format == "height_map" ? "fuzz.png" : format == "environment" ? "fuzz.hdr" : "fuzz." + format;
 }
 
 // True where the bytes are a valid scene, false where they are refused as bad input: by the loader, or for

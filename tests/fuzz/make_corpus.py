@@ -120,6 +120,29 @@ def height_map_seeds():
     yield "float.tif", tiff(3, 2, rows)
 
 
+def hdr(width, height, texels, packed):
+    """A Radiance picture of RGBE texels, row by row; `packed`: by run lengths, of single bytes here."""
+    data = b"#?RADIANCE\n# seed\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width)
+    for y in range(height):
+        row = texels[y * width:(y + 1) * width]
+        if packed:
+            data += bytes([2, 2, width >> 8, width & 255])
+            for channel in range(4):
+                data += bytes([width]) + bytes(texel[channel] for texel in row)
+        else:
+            data += b"".join(bytes(texel) for texel in row)
+    return data
+
+
+def environment_seeds():
+    yield "plain.hdr", hdr(4, 2, [(128, 64, 32, 129), (0, 0, 0, 0)] * 4, False)
+    yield "packed.hdr", hdr(8, 4, [(200, 100 + i, 50, 128) for i in range(32)], True)
+    yield "run.hdr", (b"#?RGBE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n"
+                      + 2 * (bytes([2, 2, 0, 8]) + bytes([136, 90, 136, 80, 136, 70, 136, 130])))
+    yield "grey.exr", exr(4, 2, [[0.0, 0.5, 1.0, 3.0], [4.0, 2.0, 1e-3, 1.0]])
+    yield "rgb8.png", png(2, 1, 8, 2, [bytes([255, 128, 0, 2, 2, 2])])
+
+
 class Gltf:
     """A glTF document under construction, with its single buffer."""
 
@@ -244,6 +267,7 @@ def main():
     scenes = [("triangle", gltf_triangle(False)), ("texture", gltf_triangle(True)), ("morph", gltf_morph()),
               ("skin", gltf_skin()), ("facets", gltf_facets())]
     formats = {"ply": ply_seeds(), "obj": obj_seeds(), "stl": stl_seeds(), "height_map": height_map_seeds(),
+               "environment": environment_seeds(),
                "gltf": ((f"{name}.gltf", scene.gltf()) for name, scene in scenes),
                "glb": ((f"{name}.glb", scene.glb()) for name, scene in scenes)}
     for folder, seeds in formats.items():

@@ -55,6 +55,7 @@ Scene valid_scene() {
                     {1, P::rotation, I::cubic_spline, {0}, std::vector<float>(12, 1)},
                     {0, P::weights, I::step, {0, 2}, {0, 1}}}}};
   s.sky = Sky{};
+  s.environment = Environment{"map", 2, 1, {{1, 1, 1}, {2, 2, 2}}};
   return s;
 }
 
@@ -167,21 +168,27 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Rest, Validate,
-    testing::Values(BREAK("CameraNaN", s.cameras[0].znear = nan),
-                    BREAK("CameraFieldOfView", s.cameras[0].yfov = 0),
-                    BREAK("CameraExtent", s.cameras[0].perspective = false; s.cameras[0].xmag = 0),
-                    BREAK("CameraFar", s.cameras[0].zfar = -1), BREAK("LightNaN", s.lights[0].color.x = nan),
-                    BREAK("LightIntensity", s.lights[0].intensity = -1),
-                    BREAK("LightColour", s.lights[0].color.x = -1),
-                    BREAK("LightTooBright", s.lights[0].intensity = 3e38f; s.lights[0].color.x = 10),
-                    BREAK("EmissionNegative", s.materials[0].emissive.x = -1),
-                    BREAK("EmissionTooBright", s.materials[0].emissive.x = 1e31f),
-                    BREAK("MaterialNaN", s.materials[0].emissive.x = infinity),
-                    BREAK("TextureImage", s.materials[0].normal_texture.image = 1),
-                    BREAK("TextureCoordinates", s.materials[0].normal_texture.texcoord = 2),
-                    BREAK("TextureTransform", s.materials[0].normal_texture.u_row.x = nan),
-                    BREAK("ImageEmpty", s.images[0].width = 0),
-                    BREAK("ImageShort", s.images[0].rgba.pop_back()), BREAK("SkyNaN", s.sky->top.x = nan)),
+    testing::Values(
+        BREAK("CameraNaN", s.cameras[0].znear = nan), BREAK("CameraFieldOfView", s.cameras[0].yfov = 0),
+        BREAK("CameraExtent", s.cameras[0].perspective = false; s.cameras[0].xmag = 0),
+        BREAK("CameraFar", s.cameras[0].zfar = -1), BREAK("LightNaN", s.lights[0].color.x = nan),
+        BREAK("LightIntensity", s.lights[0].intensity = -1), BREAK("LightColour", s.lights[0].color.x = -1),
+        BREAK("LightTooBright", s.lights[0].intensity = 3e38f; s.lights[0].color.x = 10),
+        BREAK("EmissionNegative", s.materials[0].emissive.x = -1),
+        BREAK("EmissionTooBright", s.materials[0].emissive.x = 1e31f),
+        BREAK("MaterialNaN", s.materials[0].emissive.x = infinity),
+        BREAK("TextureImage", s.materials[0].normal_texture.image = 1),
+        BREAK("TextureCoordinates", s.materials[0].normal_texture.texcoord = 2),
+        BREAK("TextureTransform", s.materials[0].normal_texture.u_row.x = nan),
+        BREAK("ImageEmpty", s.images[0].width = 0), BREAK("ImageShort", s.images[0].rgba.pop_back()),
+        BREAK("SkyNaN", s.sky->top.x = nan), BREAK("EnvironmentEmpty", s.environment = Environment{}),
+        BREAK("EnvironmentShort", s.environment->radiance.pop_back()),
+        BREAK("EnvironmentWide", s.environment->width = 16385; s.environment->radiance.resize(16385)),
+        BREAK("EnvironmentNegative", s.environment->radiance[1].z = -1),
+        BREAK("EnvironmentNaN", s.environment->radiance[0].x = nan),
+        BREAK("EnvironmentTooBright", s.environment->radiance[0].x = 1e25f; s.environment->strength = 1e6f),
+        BREAK("EnvironmentStrength", s.environment->strength = -1),
+        BREAK("EnvironmentRotation", s.environment->rotation = infinity)),
     name_of);
 
 }  // namespace

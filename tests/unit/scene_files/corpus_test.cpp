@@ -69,7 +69,8 @@ TEST_P(Corpus, SeedsWithAnyByteChangedLoadOrAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Corpus, testing::Values("gltf", "glb", "obj", "ply", "stl", "height_map"),
+INSTANTIATE_TEST_SUITE_P(Formats, Corpus,
+                         testing::Values("gltf", "glb", "obj", "ply", "stl", "height_map", "environment"),
                          [](const testing::TestParamInfo<std::string>& file) { return file.param; });
 
 }  // namespace
