@@ -110,6 +110,20 @@ struct PartRecord {
   uint first_mesh_triangle;
 };
 
+// The light from all directions that nothing blocks, as layout/environment.h finds and samples it.
+struct EnvironmentRecord {
+  uint width;  // texels; of the analytic sky those of the raster that its density comes from
+  uint height;
+  uint column_step;  // the greatest power of 2 below `width` (0: none): where a binary search begins ...
+  uint row_step;     // ... and that below height + 1
+  float turn;        // the column coordinate u, in [0, 1], of (1, 0, 0)
+  uint pad0;
+  uint pad1;
+  uint pad2;
+};
+
+CONST float environment_numbers = 16777216.0f;  // 2^24, as many as xi has
+
 // Rays are numbered in tiles of 8 x 8 pixels, Morton order within a tile, so that neighbours in a subgroup
 // are neighbours in the picture.
 struct RayPush {

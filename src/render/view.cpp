@@ -123,6 +123,15 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
   fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto", known);
 }
 
+scene::Sky frame_sky(const scene::Scene& scene) {
+  const bool lit = std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const scene::Node& node) {
+    return node.light != scene::none &&
+           scene.lights[node.light].color * scene.lights[node.light].intensity != vec3(0);
+  });
+  if (lit || scene.sky || scene.environment) return scene.sky.value_or(scene::Sky{});
+  return {vec3(0.36f, 0.42f, 0.54f), vec3(0.48f, 0.49f, 0.5f), vec3(0.15f, 0.135f, 0.12f)};
+}
+
 std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const scene::Pose& pose,
                                               const View& view, scene::Sky& sky) {
   std::vector<layout::LightRecord> lights;
@@ -131,9 +140,8 @@ std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const s
     const auto record = light_record(scene.lights[scene.nodes[node].light], pose.node_world[node]);
     if (record.color != vec3(0)) lights.push_back(record);
   }
-  sky = scene.sky.value_or(scene::Sky{});
-  if (lights.empty() && !scene.sky) {
-    sky = {vec3(0.36f, 0.42f, 0.54f), vec3(0.48f, 0.49f, 0.5f), vec3(0.15f, 0.135f, 0.12f)};
+  sky = frame_sky(scene);
+  if (lights.empty() && !scene.sky && !scene.environment) {
     layout::LightRecord key{};
     key.kind = layout::light_directional;
     key.direction = glm::normalize(glm::normalize(view.forward) + 0.6f * glm::normalize(view.right) -
@@ -141,7 +149,8 @@ std::vector<layout::LightRecord> frame_lights(const scene::Scene& scene, const s
     key.color = vec3(1.7f, 1.6f, 1.45f);
     lights.push_back(key);
   }
-  if (lights.empty() || sky.top != vec3(0) || sky.horizon != vec3(0) || sky.bottom != vec3(0)) {
+  if (lights.empty() || scene.environment || sky.top != vec3(0) || sky.horizon != vec3(0) ||
+      sky.bottom != vec3(0)) {
     layout::LightRecord record{};
     record.kind = layout::light_sky;
     lights.push_back(record);
