@@ -8,21 +8,25 @@
 
 #include <hwy/highway.h>
 
+#include "lodestone/cpu_fallback/varying/environment_kernel-inl.h"
 #include "lodestone/cpu_fallback/varying/surface_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe, uint32_t source_count, bool is_layered>
-class Shade : public SurfaceKernel<Probe, source_count, is_layered> {
+class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 21> {
  public:
-  using SurfaceKernel<Probe, source_count, is_layered>::SurfaceKernel;
+  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 21>::EnvironmentKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
     const FrameRecord& frame = this->frames[0];
     const vec3 direction = as_vec3(along);
-    vec3 emitted = sky_radiance(frame, direction);
+    vec3 emitted(0.0f, 0.0f, 0.0f);
+    if (const Where missed(*this, hit.w == no_index); missed.any()) {
+      emitted = this->environment_radiance(direction);
+    }
     vec1 alpha = 0.0f;
     uvec4 contribution(0u, 0u, 0u, 0u), shadow_from = contribution;
     uvec4 shadow_along(0u, 0u, 0u, floatBitsToUint(vec1(-1.0f)));
@@ -31,7 +35,9 @@ class Shade : public SurfaceKernel<Probe, source_count, is_layered> {
       emitted = select(this->active(), emitted_radiance(surface), emitted);
       alpha = select(this->active(), 1.0f, alpha);
       const vec2 xi = this->draw(push_, pair_sky + push_.light);
-      const LightSample light = sample_light(lights_[push_.light], frame, surface, xi);
+      const LightRecord& source = lights_[push_.light];
+      const LightSample light =
+          source.kind == light_sky ? this->sample_sky(surface, xi) : sample_light(source, surface);
       const bvec1 lit = this->active() && dot3(light.direction, surface.geometric) > 0.0f &&
                         max_component(light.radiance) > 0.0f;
       const Ray shadow = leaving_ray(surface, light.direction, 1.0f, light.distance);

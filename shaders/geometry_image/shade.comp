@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What one light would send by way of the hit to the viewer, and the shadow ray that decides whether it does. The first
-// light's turn also adds what the surface emits, or the sky where nothing was hit.
+// light's turn also adds what the surface emits, or the environment where nothing was hit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
@@ -10,8 +10,15 @@ STRUCTS(17, readonly, LightRecord, lights);
 QUADS(18, writeonly, contributions);
 QUADS(19, writeonly, shadow_rays);
 QUADS(20, restrict, radiance);
-COUNTERS(21)
+STRUCTS(21, readonly, EnvironmentRecord, environments);
+QUADS(22, readonly, environment_quads);
+WORDS(23, readonly, environment_cells);
+COUNTERS(24)
 PUSH(RayPush, push);
+layout(constant_id = 4) const uint environment_map = 0u;
+
+#include "layout/environment.h"
+#include "layout/sky_light.h"
 
 void main() {
   uint index = invocation();
@@ -24,7 +31,7 @@ void main() {
   LOAD4(along, rays, 2u * index + 1u);
   FrameRecord frame = frames[0];
   vec3 direction = as_vec3(along);
-  vec3 emitted = sky_radiance(frame, direction);
+  vec3 emitted;
   float alpha = 0.0;
   uvec4 contribution = uvec4(0u);
   uvec4 shadow_from = uvec4(0u);
@@ -40,13 +47,20 @@ void main() {
     uint py;
     ray_pixel(push.first_ray + index, frame.width, frame.height, px, py);
     vec2 xi = sample_2d(frame.seed, py * frame.width + px, push.sample_index, pair_sky + push.light);
-    LightSample light = sample_light(lights[push.light], frame, surface, xi);
+    LightSample light;
+    if (lights[push.light].kind == light_sky) {
+      light = sample_sky(surface, xi);
+    } else {
+      light = sample_light(lights[push.light], surface);
+    }
     if (dot3(light.direction, surface.geometric) > 0.0 && max_component(light.radiance) > 0.0) {
       Ray shadow = leaving_ray(surface, light.direction, 1.0, light.distance);
       contribution = as_bits(light.radiance, 0u);
       shadow_from = as_bits(shadow.origin, floatBitsToUint(shadow.tmin));
       shadow_along = as_bits(shadow.direction, floatBitsToUint(shadow.tmax));
     }
+  } else {
+    emitted = environment_radiance(direction);
   }
   STORE4(contributions, index, contribution);
   STORE4(shadow_rays, 2u * index, shadow_from);

@@ -75,15 +75,6 @@ FN vec3 sky_radiance(IN(FrameRecord) frame, vec3 direction) {
   return mix3(frame.sky_horizon, far, sqrt(abs1(up)));
 }
 
-// A direction to the sky, all alike.
-CONST float sky_density = 0.0795774715f;  // of each, per solid angle: 1 / (4 pi)
-FN vec3 sample_sky(vec2 xi) {
-  vec1 height = 1.0f - 2.0f * xi.x;
-  vec1 radius = sqrt(max2(1.0f - height * height, 0.0f));
-  vec2 turn = cos_sin_turns(xi.y);
-  return flush_tiny3(vec3(radius * turn.x, height, radius * turn.y));
-}
-
 struct Surface {
   vec3 position;
   vec1 reach;      // the largest number in its rounding: a coordinate, or the way to a corner of its triangle
@@ -243,11 +234,6 @@ FN vec3 sky_specular(IN(Surface) s) {
   return max3(color, vec3(0.0f, 0.0f, 0.0f));
 }
 
-FN vec3 mirrored_sky(IN(FrameRecord) frame, vec3 normal, vec3 view) {
-  vec3 mirror = normal * (2.0f * dot3(normal, view)) - view;
-  return sky_radiance(frame, normalize_or(mirror, normal));
-}
-
 // What arrives at a point from a light that has one direction.
 struct Arrival {
   vec3 direction;  // unit length, to the light
@@ -287,18 +273,9 @@ struct LightSample {
   vec3 radiance;   // reflected towards the viewer if nothing is in the way
 };
 
-FN LightSample sample_light(IN(LightRecord) light, IN(FrameRecord) frame, IN(Surface) s, vec2 xi) {
+// Of any light but the sky (layout/sky_light.h).
+FN LightSample sample_light(IN(LightRecord) light, IN(Surface) s) {
   LightSample result;
-  if (light.kind == light_sky) {
-    result.direction = cosine_direction(s.normal, xi);
-    result.distance = 1e30f;
-    vec3 f = sky_specular(s);
-    vec3 sent = diffuse_color(s) * sky_radiance(frame, result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
-                f * mirrored_sky(frame, s.normal, s.view);
-    if (any_lane(s.clearcoat > 0.0f)) sent = coated(s, sent, mirrored_sky(frame, s.clearcoat_normal, s.view));
-    result.radiance = sent * s.occlusion;
-    return result;
-  }
   Arrival arrival = arriving_light(light, s.position, s.normal);
   result.direction = arrival.direction;
   result.distance = arrival.distance;

@@ -95,6 +95,11 @@ constexpr Binding wide_nodes_bindings[] = {
     "frame", structs, read                                                                               \
   }
 
+#define ENVIRONMENT_BINDINGS                                            \
+  {"environments", structs, read}, {"environment_quads", quad, read}, { \
+    "environment_cells", word, read                                     \
+  }
+
 constexpr Binding mask_bindings[] = {SURFACE_BINDINGS,
                                      {"rays", quad, read_write},
                                      {"states", quad, read_write},
@@ -105,7 +110,8 @@ constexpr Binding shade_bindings[] = {SURFACE_BINDINGS,
                                       {"lights", structs, read},
                                       {"contributions", quad, write},
                                       {"shadow_rays", quad, write},
-                                      {"radiance", quad, read_write}};
+                                      {"radiance", quad, read_write},
+                                      ENVIRONMENT_BINDINGS};
 
 constexpr Binding ambient_bindings[] = {SURFACE_BINDINGS,
                                         {"rays", quad, read},
@@ -125,6 +131,7 @@ constexpr Binding path_bindings[] = {SURFACE_BINDINGS,
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
 
+#undef ENVIRONMENT_BINDINGS
 #undef SURFACE_BINDINGS
 
 constexpr Binding accumulate_bindings[] = {

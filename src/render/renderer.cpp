@@ -7,6 +7,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/layout/frame.h"
+#include "lodestone/render/environment_tables.h"
 #include "lodestone/render/film.h"
 #include "lodestone/render/focus.h"
 #include "lodestone/render/passes.h"
@@ -36,6 +37,7 @@ struct Renderer::State {
   const geometry_image::Atlas& atlas;
   Settings settings;
   SceneTables tables;
+  EnvironmentTables environment;
   Tracing tracing;
   scene::PoseReach reach;
   scene::PoseBox pose_box;
@@ -100,6 +102,7 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       atlas(atlas_in),
       settings(settings_in),
       tables(device, scene_in, assembly_in, atlas_in),
+      environment(device, scene_in),
       tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget),
       reach(scene_in),
       pose_box(scene_in) {
@@ -237,8 +240,9 @@ bool Renderer::State::eye_sample(layout::RayPush push, const Interrupted& interr
     push.light = light;
     run(passes::shade,
         surface_buffers(
-            primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
-        push, push.rays, {tables.sources, tables.layered});
+            primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id(),
+                      environment.environments.id(), environment.quads.id(), environment.cells.id()}),
+        push, push.rays, {tables.sources, tables.layered, environment.map});
     if (!add_unblocked(push.rays, interrupted)) return false;
   }
   return true;
