@@ -12,6 +12,7 @@
 #include "lodestone/app/output_path.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
+#include "lodestone/scene/environment.h"
 #include "lodestone/scene/load.h"
 
 namespace lodestone::app {
@@ -84,6 +85,38 @@ void add_scene_argument(CLI::App& app, SceneOptions& options) {
             [&](const std::string& text) {
               options.height_scale = float(parse_number("--height", text, 1e-6, 1e9));
             });
+}
+
+void add_environment_options(CLI::App& app, SceneOptions& options) {
+  add_path(
+      app, "--environment", "FILE",
+      "Light and background from all directions instead of the scene's sky: an equirectangular .hdr or .exr, "
+      "or a .png or .jpg",
+      options.environment);
+  add_value(app, "--environment-strength", "X", "What its radiance is multiplied by (default: 1)",
+            [&](const std::string& text) {
+              options.environment_strength = float(parse_number("--environment-strength", text, 0, 1e9));
+            });
+  add_value(app, "--environment-rotation", "DEGREES",
+            "Turns it about +Y, from +X towards -Z; its centre is at +X (default: 0)",
+            [&](const std::string& text) {
+              options.environment_rotation = float(parse_number("--environment-rotation", text, -3600, 3600));
+            });
+}
+
+std::optional<scene::Environment> load_environment(const SceneOptions& options) {
+  if (options.environment.empty()) {
+    const char* without = options.environment_strength   ? "--environment-strength"
+                          : options.environment_rotation ? "--environment-rotation"
+                                                         : nullptr;
+    if (without != nullptr)
+      fail(ExitCode::usage, without, "there is no environment map; name one with --environment FILE");
+    return std::nullopt;
+  }
+  scene::Environment environment = scene::load_environment(options.environment);
+  environment.strength = options.environment_strength.value_or(1.0f);
+  environment.rotation = options.environment_rotation.value_or(0.0f);
+  return environment;
 }
 
 scene::Scene load_scene(const SceneOptions& options) {

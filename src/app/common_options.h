@@ -33,10 +33,18 @@ struct SceneOptions {
   geometry_image::AtlasSettings atlas;
   const char* budget_option = "";  // that gave the texel budget, for messages
   float height_scale = 0;
+  // What stands in for the scene's own sky; empty: nothing.
+  std::string environment;
+  std::optional<float> environment_strength, environment_rotation;
 };
 void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height
 void add_atlas_options(CLI::App& app,
                        SceneOptions& options);  // --atlas --resolution --texel-budget --signal --all-shapes
+// --environment --environment-strength --environment-rotation, for commands that make pictures
+void add_environment_options(CLI::App& app, SceneOptions& options);
+// The environment of these options, read; none where none is given. Throws Error(usage) where the others are
+// given without it.
+std::optional<scene::Environment> load_environment(const SceneOptions& options);
 // The scene, read. Throws Error(usage) where --height is given and the scene is no height map, or options for
 // resampling are and nothing would be resampled.
 scene::Scene load_scene(const SceneOptions& options);

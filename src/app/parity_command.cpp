@@ -129,7 +129,8 @@ int run_parity(const ParityOptions& options) {
     fail(ExitCode::usage, "--device cpu",
          "would compare the CPU with itself; give gpu, or a device as `lodestone devices` lists it");
   check_frames(options.frames);
-  check_distinct({{"--log", options.log}}, {{"the scene", options.scene.scene}});
+  check_distinct({{"--log", options.log}},
+                 {{"the scene", options.scene.scene}, {"the environment map", options.scene.environment}});
   if (!options.log.empty()) check_writable(options.log);
   const ThreadLimit threads(options.device.backend.threads);
   // Without a Vulkan device there is nothing to compare: `auto` must not become the CPU.
@@ -152,6 +153,7 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
       app.add_subcommand("parity", "Run every pass on a device and on the CPU and compare the bits");
   auto options = std::make_shared<ParityOptions>();
   add_scene_argument(*command, options->scene);
+  add_environment_options(*command, options->scene);
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
   add_relaxation_option(*command, options->scene, options->relaxation_sweeps);

@@ -71,6 +71,10 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
     if (!is_baked(options.scene)) return load_scene(options);
     return baked.emplace(options).load();
   });
+  if (std::optional<scene::Environment> environment = load_environment(options)) {
+    prepared.scene.environment = std::move(environment);
+    scene::validate(prepared.scene);
+  }
   prepared.animation = scene::find_animation(prepared.scene, pose.clip);
   prepared.pose_at(0);  // finds unknown weight names before the costly part
   prepared.assembly = timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene); });

@@ -51,11 +51,16 @@ std::vector<NamedFile> reports_of(const RenderOptions& options) {
           {"--profile", options.profile}};
 }
 
-// Throws Error(usage) where something that is written would replace the scene.
+// Throws Error(usage) where something that is written would replace the scene or its environment map.
 void check_keeps(const RenderOptions& options, const OutputPattern& output, const std::string& scene) {
-  check_distinct(reports_of(options), {{"the scene", scene}});
-  if (output.writes(scene, options.frames.range()))
-    fail(ExitCode::usage, "-o", "`{}` is the scene, which would be overwritten; name another file", scene);
+  const std::vector<NamedFile> kept = {{"the scene", scene},
+                                       {"the environment map", options.scene.environment}};
+  check_distinct(reports_of(options), kept);
+  for (const NamedFile& file : kept) {
+    if (!file.path.empty() && output.writes(file.path, options.frames.range()))
+      fail(ExitCode::usage, "-o", "`{}` is {}, which would be overwritten; name another file",
+           file.path.string(), file.option);
+  }
 }
 
 // Checks what no single option can say, and that everything asked for can be written.
@@ -178,6 +183,11 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"wall_ms", fmt::format("{}", frame.wall_ms)},  // the only ones that differ between two runs
       {"pass_ms", times.dump()},
   };
+  if (const std::optional<scene::Environment>& environment = prepared_.scene.environment) {
+    text["environment"] = environment->file;
+    text["environment_strength"] = fmt::format("{}", environment->strength);
+    text["environment_rotation"] = fmt::format("{}", environment->rotation);
+  }
   if (output_.is_png()) {
     text["exposure"] = fmt::format("{}", options_.exposure);
     text["view"] = options_.view == render::ViewTransform::linear ? "linear" : "filmic";
@@ -296,6 +306,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
   add_relaxation_option(*command, options->scene, options->relaxation_sweeps);
+  add_environment_options(*command, options->scene);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);
   add_pose_options(*command, options->pose);

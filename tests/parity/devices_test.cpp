@@ -5,6 +5,7 @@
 
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/devices.h"
+#include "lodestone/test_support/environments.h"
 #include "lodestone/test_support/mapped_charts.h"
 #include "lodestone/test_support/ready_scene.h"
 #include "lodestone/test_support/small_scenes.h"
@@ -96,6 +97,19 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnMorphsSkinsAndTextures) {
   if (!file) GTEST_SKIP() << "shared data are absent";
   for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts})
     expect_equal(ReadyScene(*file, kind), GetParam(), small_settings());
+}
+
+// With no light but the map, and with a key light beside it.
+TEST_P(Devices, GiveTheBitsOfTheCpuUnderEnvironmentMaps) {
+  for (const char* name : {"builtin:spheres", "builtin:tiny"}) {
+    ReadyScene ready(name);
+    ready.scene.environment = sunny_environment(130, 65, 2);
+    ready.scene.environment->rotation = 40;
+    render::Settings settings = small_settings();
+    settings.spp = 4;
+    expect_equal(ready, GetParam(), settings);
+    expect_equal(differences(ready, open_split(GetParam(), 20000, {.validate = true}), 0.6f, settings));
+  }
 }
 
 TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <cmath>
 #include <tuple>
 
 #include "lodestone/base/error.h"
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/devices.h"
+#include "lodestone/test_support/environments.h"
 #include "lodestone/test_support/mapped_charts.h"
 #include "lodestone/test_support/picture.h"
 #include "lodestone/test_support/ready_scene.h"
@@ -105,6 +107,47 @@ TEST_P(Pictures, LightNormalMapsTheRightWayUpWithTangentsAndWithout) {
   }
   const image::Image flipped = render(normal_mapped(true, {1, -1, 1}));
   EXPECT_NEAR(value(flipped, "normal.Y", 8, 8), -0.707f, 0.01f);
+}
+
+// A diffuse square that faces an even map from everywhere sends its albedo back, whatever of it is the mirror
+// part; behind it there is the map itself.
+TEST_P(Pictures, SeeAnEnvironmentAsTheySeeASkyOfItsRadiance) {
+  scene::Scene scene = facing_camera({square(0, 0)}, {colored({0.5f, 0.25f, 1})});
+  const image::Image white_sky = render(scene);
+  scene.environment = even_environment(8, 4, {2, 2, 2});
+  scene.environment->strength = 0.5f;
+  const image::Image map = render(scene);
+  EXPECT_NEAR(value(map, "R", 0, 0), 1, 1e-6f);
+  EXPECT_EQ(value(map, "A", 0, 0), 0);
+  for (const char* channel : {"R", "G", "B"}) {
+    double sky_mean = 0, map_mean = 0;
+    int texels = 0;
+    for (uint32_t y = 3; y < 13; ++y) {
+      for (uint32_t x = 3; x < 13; ++x, ++texels) {
+        sky_mean += double(value(white_sky, channel, x, y));
+        map_mean += double(value(map, channel, x, y));
+      }
+    }
+    // Weights are from 0 to 2 with a deviation of 0.7.
+    EXPECT_NEAR(map_mean / sky_mean, 1, 3 * 0.7 / std::sqrt(texels)) << channel;
+  }
+}
+
+// The camera looks along -Z, with +X to its right.
+TEST_P(Pictures, HaveTheEnvironmentBehindThemTheRightWayRound) {
+  scene::Scene scene = facing_camera({square(0, 0)}, {colored({1, 1, 1})});
+  scene.cameras[0].perspective = true;
+  scene.cameras[0].yfov = 2.4f;
+  scene.environment = even_environment(256, 128, {0, 0, 0});
+  for (uint32_t y = 0; y < 128; ++y) {
+    for (uint32_t x = 0; x < 256; ++x)
+      scene.environment->radiance[y * 256 + x] = {x < 64 ? 0 : 1, y < 64 ? 1 : 0, 0};  // -Z is at x = 64
+  }
+  const image::Image image = render(scene);
+  EXPECT_NEAR(value(image, "R", 15, 2), 1, 1e-6f);
+  EXPECT_NEAR(value(image, "R", 0, 2), 0, 1e-6f);
+  EXPECT_NEAR(value(image, "G", 2, 0), 1, 1e-6f);
+  EXPECT_NEAR(value(image, "G", 2, 15), 0, 1e-6f);
 }
 
 // A small square over a large one, lit straight from the front, far from the origin.

@@ -8,9 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "lodestone/cpu_fallback/kernel.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/ray_state.h"
 #include "lodestone/layout/shading.h"
+#include "lodestone/test_support/environment_probe.h"
+#include "lodestone/test_support/environments.h"
 
 #include "conformance/operations.h"
 
@@ -20,6 +23,7 @@
 
 #include <hwy/highway.h>
 
+#include "lodestone/cpu_fallback/varying/environment_kernel-inl.h"
 #include "lodestone/cpu_fallback/varying/layout-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -56,6 +60,33 @@ HWY_ATTR void wrap(std::span<const float> coordinates, uint32_t size, uint32_t h
   }
 }
 
+// For each xi of buffer 4 the direction chosen, its density, the radiance from there and from the other side,
+// and the density there: twelve words each in buffer 5.
+class WithFrames : public VaryingKernel<EmptyProbe> {
+ public:
+  using VaryingKernel<EmptyProbe>::VaryingKernel;
+
+ protected:
+  Structs<FrameRecord> frames = structs<FrameRecord>(3);
+};
+class LookAround : public EnvironmentKernel<WithFrames, 0> {
+ public:
+  using EnvironmentKernel<WithFrames, 0>::EnvironmentKernel;
+
+  HWY_ATTR void operator()() {
+    const vec4 xi = as_vec4(load_own(quads(4)));
+    const EnvironmentSample sample = sample_environment(vec2(xi.x, xi.y));
+    const vec3 ahead = environment_radiance(sample.direction), across = sample.direction * -1.0f,
+               behind = environment_radiance(across);
+    store_own(quads(5), as_bits(sample.direction, floatBitsToUint(sample.pdf)), 3, 0);
+    store_own(quads(5), as_bits(ahead, floatBitsToUint(environment_pdf(across))), 3, 1);
+    store_own(quads(5), as_bits(behind, 0u), 3, 2);
+  }
+};
+HWY_ATTR void look_around(const CpuDispatch& dispatch) {
+  run_lanes<LookAround>(dispatch, 0, dispatch.invocations);
+}
+
 }  // namespace lodestone::cpu_fallback::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -66,6 +97,7 @@ namespace {
 HWY_EXPORT(apply);
 HWY_EXPORT(sample);
 HWY_EXPORT(wrap);
+HWY_EXPORT(look_around);
 
 constexpr size_t count = 1 << 14;
 
@@ -178,6 +210,52 @@ TEST(Varying, TexelsWrapAsInScalarCode) {
       }
     }
   });
+}
+
+std::vector<glm::uvec4> looked_around(test::EnvironmentProbe& probe, const std::vector<glm::vec2>& pairs) {
+  std::vector<glm::uvec4> xi, results(3 * pairs.size());
+  for (const glm::vec2& pair : pairs) {
+    xi.emplace_back(layout::floatBitsToUint(pair.x), layout::floatBitsToUint(pair.y), 0, 0);
+  }
+  const auto words = [](auto* items) { return reinterpret_cast<uint32_t*>(items); };
+  uint32_t* const buffers[] = {words(probe.environments),
+                               words(probe.environment_quads.data()),
+                               probe.environment_cells.data(),
+                               words(probe.frames),
+                               words(xi.data()),
+                               words(results.data())};
+  CpuDispatch dispatch;
+  dispatch.buffers = buffers;
+  dispatch.invocations = static_cast<uint32_t>(pairs.size());
+  dispatch.constants[1] = probe.environment_map;
+  HWY_DYNAMIC_DISPATCH(look_around)(dispatch);
+  return results;
+}
+
+TEST(Varying, EnvironmentsAreThoseOfScalarCode) {
+  scene::Environment turned = test::sunny_environment(67, 32);
+  turned.rotation = 20;
+  scene::Scene sky;
+  sky.sky = scene::Sky{{1, 2, 3}, {0.5f, 0.5f, 0.5f}, {0, 0.1f, 0}};
+  std::mt19937 random(13);
+  std::vector<glm::vec2> pairs(1001);
+  const auto number = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+  for (glm::vec2& pair : pairs) pair = {number(), number()};
+  pairs[0] = {0, 0};
+  pairs[1] = {0.99999994f, 0.99999994f};
+  for (const scene::Scene& scene : {test::scene_in(turned), sky}) {
+    test::EnvironmentProbe probe(scene);
+    std::vector<glm::uvec4> expected;
+    for (const glm::vec2& pair : pairs) {
+      const auto sample = probe.sample_environment(pair);
+      const glm::vec3 across = sample.direction * -1.0f;
+      expected.push_back(as_bits(sample.direction, layout::floatBitsToUint(sample.pdf)));
+      expected.push_back(as_bits(probe.environment_radiance(sample.direction),
+                                 layout::floatBitsToUint(probe.environment_pdf(across))));
+      expected.push_back(as_bits(probe.environment_radiance(across), 0));
+    }
+    at_every_width([&](const char* width) { EXPECT_EQ(looked_around(probe, pairs), expected) << width; });
+  }
 }
 
 // Direction numbers as they are defined, by their recurrence.
