@@ -43,6 +43,7 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/mask", mask},
       {"geometry_image/shade", shade},
       {"geometry_image/ambient", ambient},
+      {"geometry_image/branch", branch},
       {"geometry_image/path", path},
       {"geometry_image/accumulate", accumulate},
       {"geometry_image/aov", aov},

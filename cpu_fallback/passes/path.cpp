@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "lodestone/cpu_fallback/varying/environment_kernel-inl.h"
 #include "lodestone/cpu_fallback/varying/surface_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,13 +20,12 @@ HWY_ATTR inline DrawnLight select(bvec1 condition, const DrawnLight& yes, const 
 }
 
 template <class Probe, uint32_t source_count, bool is_layered>
-class PathVertex : public SurfaceKernel<Probe, source_count, is_layered> {
+class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 23> {
  public:
-  using SurfaceKernel<Probe, source_count, is_layered>::SurfaceKernel;
+  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 23>::EnvironmentKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
-    const FrameRecord& frame = this->frames[0];
     const vec3 direction = as_vec3(along);
     const bvec1 alive = !(uintBitsToFloat(along.w) < 0.0f);
     path_ = push_.vertex == 0 ? first_path() : stored_path(this->load_own(paths_));
@@ -33,8 +33,8 @@ class PathVertex : public SurfaceKernel<Probe, source_count, is_layered> {
     contribution_ = vec3(0.0f, 0.0f, 0.0f);
     shadow_ = next_ = no_ray();
     if (const Where here(*this, alive && hit.w == no_index); here.any()) {
-      const vec1 density = sky_density * float(push_.sky_lights) / float(push_.lights);
-      const vec3 sky = path_.throughput * sky_radiance(frame, direction) * sky_weight(path_, density);
+      const vec1 density = this->environment_pdf(direction) * float(push_.sky_lights) / float(push_.lights);
+      const vec3 sky = path_.throughput * this->environment_radiance(direction) * sky_weight(path_, density);
       added_ = select(this->active(), vec4(sky.x, sky.y, sky.z, 0.0f), added_);
     }
     if (const Where here(*this, alive && hit.w != no_index); here.any()) scatter(hit, direction);
@@ -81,11 +81,10 @@ class PathVertex : public SurfaceKernel<Probe, source_count, is_layered> {
     if (!here.any()) return;
     const vec1 side_of_next = select(drawn.through, -1.0f, 1.0f);
     next_ = select(this->active(), leaving_ray(surface, drawn.direction, side_of_next, 1e30f), next_);
-    this->add(alive_, 0, this->active_count());
+    this->add(going_on_, 0, this->active_count());
   }
 
   HWY_ATTR DrawnLight draw_light(const Surface& surface, vec1 choice, vec2 xi) {
-    const FrameRecord& frame = this->frames[0];
     const auto count = float(push_.lights);
     DrawnLight drawn{vec3(0.0f, 0.0f, 0.0f), 0.0f, vec3(0.0f, 0.0f, 0.0f), 0.0f};
     const uvec1 picked = uvec1(choice * count), last = push_.lights - 1;
@@ -93,10 +92,11 @@ class PathVertex : public SurfaceKernel<Probe, source_count, is_layered> {
       const LightRecord& light = lights_[index];
       DrawnLight here;
       if (light.kind == light_sky) {
-        here.direction = sample_sky(xi);
+        const auto chosen = this->sample_environment(xi);
+        here.direction = chosen.direction;
         here.distance = 1e30f;
-        here.density = sky_density / count;
-        here.radiance = sky_radiance(frame, here.direction) / here.density;
+        here.density = chosen.pdf / count;
+        here.radiance = this->environment_radiance(chosen.direction) / here.density;
       } else {
         const Arrival arrival = arriving_light(light, surface.position, surface.normal);
         here.direction = arrival.direction;
@@ -113,7 +113,7 @@ class PathVertex : public SurfaceKernel<Probe, source_count, is_layered> {
   Structs<LightRecord> lights_ = this->template structs<LightRecord>(17);
   Quads contributions_ = this->quads(18), shadow_rays_ = this->quads(19), radiance_ = this->quads(20),
         paths_ = this->quads(21);
-  Words alive_ = this->words(22);
+  Words going_on_ = this->words(22);
   PathPush push_ = this->template push<PathPush>();
 
   // Of the invocations that run.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/recursion.h"
 #include "lodestone/layout/shading.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -21,23 +22,31 @@ class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_lay
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
-    const FrameRecord& frame = this->frames[0];
     const vec3 direction = as_vec3(along);
     vec3 emitted(0.0f, 0.0f, 0.0f);
     if (const Where missed(*this, hit.w == no_index); missed.any()) {
       emitted = this->environment_radiance(direction);
     }
+    const uint recursion = this->constant(3);
+    Branch branch = first_branch();
+    if (recursion != recursion_none && push_.vertex != 0) branch = stored_branch(this->load_own(paths_));
     vec1 alpha = 0.0f;
     uvec4 contribution(0u, 0u, 0u, 0u), shadow_from = contribution;
     uvec4 shadow_along(0u, 0u, 0u, floatBitsToUint(vec1(-1.0f)));
     if (const Where here(*this, hit.w != no_index); here.any()) {
       const Surface surface = this->surface_of(hit, direction);
+      if (recursion != recursion_none && is_layered) {
+        const vec3 passed = branch.throughput * transmittance(surface, uintBitsToFloat(hit.x));
+        branch.throughput = select(this->active(), passed, branch.throughput);
+      }
       emitted = select(this->active(), emitted_radiance(surface), emitted);
       alpha = select(this->active(), 1.0f, alpha);
-      const vec2 xi = this->draw(push_, pair_sky + push_.light);
+      const vec2 xi = this->draw(push_, sky_pair(push_.vertex, push_.light));
       const LightRecord& source = lights_[push_.light];
-      const LightSample light =
-          source.kind == light_sky ? this->sample_sky(surface, xi) : sample_light(source, surface);
+      const Traced traced = traced_lobes(recursion, surface, branch.depth < push_.last_vertex);
+      LightSample light = source.kind == light_sky ? this->sample_sky(surface, xi, traced)
+                                                   : sample_light(source, surface, traced);
+      if (recursion != recursion_none) light.radiance = light.radiance * branch.throughput;
       const bvec1 lit = this->active() && dot3(light.direction, surface.geometric) > 0.0f &&
                         max_component(light.radiance) > 0.0f;
       const Ray shadow = leaving_ray(surface, light.direction, 1.0f, light.distance);
@@ -50,7 +59,8 @@ class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_lay
     this->store_own(shadow_rays_, shadow_along, 2, 1);
     if (push_.light != 0) return;
     const vec4 none(0.0f, 0.0f, 0.0f, 0.0f);
-    vec4 sum(emitted.x, emitted.y, emitted.z, alpha);
+    if (recursion != recursion_none) emitted = emitted * branch.throughput;
+    vec4 sum(emitted.x, emitted.y, emitted.z, push_.vertex == 0 ? alpha : vec1(0.0f));
     sum = select(uintBitsToFloat(along.w) < 0.0f, none, sum);
     if (push_.first == 0) sum = sum + as_vec4(this->load_own(radiance_));
     this->store_own(radiance_, as_bits(sum));
@@ -60,6 +70,7 @@ class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_lay
   Quads rays_ = this->quads(16);
   Structs<LightRecord> lights_ = this->template structs<LightRecord>(17);
   Quads contributions_ = this->quads(18), shadow_rays_ = this->quads(19), radiance_ = this->quads(20);
+  Quads paths_ = this->quads(24);
   RayPush push_ = this->template push<RayPush>();
 };
 

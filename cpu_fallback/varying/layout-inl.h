@@ -16,6 +16,7 @@
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray_state.h"
+#include "lodestone/layout/recursion.h"
 #include "lodestone/layout/shading.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,6 +31,7 @@ using namespace layout;  // behind what is declared here
 #undef LODESTONE_LAYOUT_PATH_H
 #undef LODESTONE_LAYOUT_RAY_H
 #undef LODESTONE_LAYOUT_RAY_STATE_H
+#undef LODESTONE_LAYOUT_RECURSION_H
 #undef LODESTONE_LAYOUT_SAMPLING_H
 #undef LODESTONE_LAYOUT_SHADING_H
 #undef LODESTONE_LAYOUT_BEGIN
@@ -41,6 +43,7 @@ using namespace layout;  // behind what is declared here
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray.h"
 #include "lodestone/layout/ray_state.h"
+#include "lodestone/layout/recursion.h"
 #include "lodestone/layout/sampling.h"
 #include "lodestone/layout/shading.h"
 #undef LODESTONE_LAYOUT_BEGIN

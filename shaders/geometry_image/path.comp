@@ -11,24 +11,31 @@ QUADS(18, writeonly, contributions);
 QUADS(19, writeonly, shadow_rays);
 QUADS(20, restrict, radiance);
 QUADS(21, restrict, paths);
-STRUCTS(22, restrict, uint, alive);
-COUNTERS(23)
+STRUCTS(22, restrict, uint, going_on);
+STRUCTS(23, readonly, EnvironmentRecord, environments);
+QUADS(24, readonly, environment_quads);
+WORDS(25, readonly, environment_cells);
+COUNTERS(26)
 PUSH(PathPush, push);
+layout(constant_id = 4) const uint environment_map = 0u;
+
+#include "layout/environment.h"
 
 void store_ray(uint index, Ray ray) {
   STORE4(rays, 2u * index, as_bits(ray.origin, floatBitsToUint(ray.tmin)));
   STORE4(rays, 2u * index + 1u, as_bits(ray.direction, floatBitsToUint(ray.tmax)));
 }
 
-DrawnLight draw_light(FrameRecord frame, Surface surface, float choice, vec2 xi) {
+DrawnLight draw_light(Surface surface, float choice, vec2 xi) {
   float count = float(push.lights);
   LightRecord light = lights[min(uint(choice * count), push.lights - 1u)];
   DrawnLight drawn;
   if (light.kind == light_sky) {
-    drawn.direction = sample_sky(xi);
+    EnvironmentSample chosen = sample_environment(xi);
+    drawn.direction = chosen.direction;
     drawn.distance = 1e30;
-    drawn.density = sky_density / count;
-    drawn.radiance = sky_radiance(frame, drawn.direction) / drawn.density;
+    drawn.density = chosen.pdf / count;
+    drawn.radiance = environment_radiance(chosen.direction) / drawn.density;
   } else {
     Arrival arrival = arriving_light(light, surface.position, surface.normal);
     drawn.direction = arrival.direction;
@@ -60,8 +67,8 @@ void main() {
   Ray shadow = no_ray();
   Ray next = no_ray();
   if (alive && hit.w == no_index) {
-    float density = sky_density * float(push.sky_lights) / float(push.lights);
-    added = vec4(path.throughput * sky_radiance(frame, direction) * sky_weight(path, density), 0.0);
+    float density = environment_pdf(direction) * float(push.sky_lights) / float(push.lights);
+    added = vec4(path.throughput * environment_radiance(direction) * sky_weight(path, density), 0.0);
   }
   if (alive && hit.w != no_index) {
     SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
@@ -77,7 +84,7 @@ void main() {
     uint pixel = py * frame.width + px;
     vec2 choice = sample_2d(frame.seed, pixel, push.sample_index, vertex_pair(push.vertex, of_light));
     vec2 xi = sample_2d(frame.seed, pixel, push.sample_index, vertex_pair(push.vertex, of_light_direction));
-    DrawnLight light = draw_light(frame, surface, choice.x, xi);
+    DrawnLight light = draw_light(surface, choice.x, xi);
     vec3 direct = direct_light(path, bsdf, light);
     if (max_component(direct) > 0.0) {
       float side = dot3(light.direction, surface.geometric) < 0.0 ? -1.0 : 1.0;
@@ -92,7 +99,7 @@ void main() {
     path = survived(path, push.vertex, choice.y);
     if (push.vertex < push.last_vertex && max_component(path.throughput) > 0.0) {
       next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
-      atomicAdd(alive[0], 1u);
+      atomicAdd(going_on[0], 1u);
     }
   }
   store_ray(index, next);

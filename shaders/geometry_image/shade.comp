@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
+#include "layout/recursion.h"
 
 QUADS(16, readonly, rays);
 STRUCTS(17, readonly, LightRecord, lights);
@@ -13,9 +14,11 @@ QUADS(20, restrict, radiance);
 STRUCTS(21, readonly, EnvironmentRecord, environments);
 QUADS(22, readonly, environment_quads);
 WORDS(23, readonly, environment_cells);
-COUNTERS(24)
+QUADS(24, readonly, paths);  // a Branch each, where `recursion` says so
+COUNTERS(25)
 PUSH(RayPush, push);
 layout(constant_id = 4) const uint environment_map = 0u;
+layout(constant_id = 5) const uint recursion = recursion_none;
 
 #include "layout/environment.h"
 #include "layout/sky_light.h"
@@ -33,6 +36,12 @@ void main() {
   vec3 direction = as_vec3(along);
   vec3 emitted;
   float alpha = 0.0;
+  Branch branch = first_branch();
+  if (recursion != recursion_none && push.vertex != 0u) {
+    uvec4 stored;
+    LOAD4(stored, paths, index);
+    branch = stored_branch(stored);
+  }
   uvec4 contribution = uvec4(0u);
   uvec4 shadow_from = uvec4(0u);
   uvec4 shadow_along = uvec4(0u, 0u, 0u, floatBitsToUint(-1.0));
@@ -41,18 +50,22 @@ void main() {
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);
+    if (recursion != recursion_none && layered != 0u)
+      branch.throughput = branch.throughput * transmittance(surface, uintBitsToFloat(hit.x));
     emitted = emitted_radiance(surface);
     alpha = 1.0;
     uint px;
     uint py;
     ray_pixel(push.first_ray + index, frame.width, frame.height, px, py);
-    vec2 xi = sample_2d(frame.seed, py * frame.width + px, push.sample_index, pair_sky + push.light);
+    vec2 xi = sample_2d(frame.seed, py * frame.width + px, push.sample_index, sky_pair(push.vertex, push.light));
+    Traced traced = traced_lobes(recursion, surface, branch.depth < push.last_vertex);
     LightSample light;
     if (lights[push.light].kind == light_sky) {
-      light = sample_sky(surface, xi);
+      light = sample_sky(surface, xi, traced);
     } else {
-      light = sample_light(lights[push.light], surface);
+      light = sample_light(lights[push.light], surface, traced);
     }
+    if (recursion != recursion_none) light.radiance = light.radiance * branch.throughput;
     if (dot3(light.direction, surface.geometric) > 0.0 && max_component(light.radiance) > 0.0) {
       Ray shadow = leaving_ray(surface, light.direction, 1.0, light.distance);
       contribution = as_bits(light.radiance, 0u);
@@ -66,7 +79,8 @@ void main() {
   STORE4(shadow_rays, 2u * index, shadow_from);
   STORE4(shadow_rays, 2u * index + 1u, shadow_along);
   if (push.light == 0u) {
-    vec4 sum = vec4(emitted.x, emitted.y, emitted.z, alpha);
+    if (recursion != recursion_none) emitted = emitted * branch.throughput;
+    vec4 sum = vec4(emitted.x, emitted.y, emitted.z, push.vertex == 0u ? alpha : 0.0);
     if (uintBitsToFloat(along.w) < 0.0) sum = vec4(0.0, 0.0, 0.0, 0.0);
     if (push.first == 0u) {
       uvec4 before;

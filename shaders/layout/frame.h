@@ -133,7 +133,9 @@ struct RayPush {
   uint centered;  // 1: through pixel centres
   uint pinhole;   // 1: through the middle of the lens
   uint light;
-  uint first;  // 1: the pass starts a sum, 0: it adds to one
+  uint first;        // 1: the pass starts a sum, 0: it adds to one
+  uint vertex;       // surfaces that the longest of the batch's rays came by
+  uint last_vertex;  // from which nothing goes on
 };
 
 // Ambient occlusion of a batch.

@@ -58,9 +58,9 @@ FN vec2 sample_2d(uint seed, uvec1 pixel, uint index, uint pair) {
 }
 
 // What the sequences of a pixel are for.
-CONST uint pair_pixel = 0u;        // position in the pixel
-CONST uint pair_sky = 1u;          // direction to the sky; one a light
-CONST uint pair_lens = 0x8000u;    // position on the lens
+CONST uint pair_pixel = 0u;         // position in the pixel
+CONST uint pair_sky = 1u;           // direction to the sky; one a light
+CONST uint pair_lens = 0x8000u;     // position on the lens
 CONST uint pair_ambient = 0x8001u;  // direction of ambient occlusion
 CONST uint pair_vertex = 0x10000u;  // vertex k of a path has the pairs from pair_vertex + 4 k on:
 CONST uint of_lobe = 0u;            // x: lobe, y: Russian roulette
@@ -68,6 +68,9 @@ CONST uint of_direction = 1u;
 CONST uint of_light = 2u;  // x: which light
 CONST uint of_light_direction = 3u;
 
+FN uint sky_pair(uint vertex, uint light) {
+  return pair_sky + light + (vertex << 20u);
+}
 FN uint vertex_pair(uint vertex, uint use) {
   return pair_vertex + 4u * vertex + use;
 }

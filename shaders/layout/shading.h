@@ -143,8 +143,26 @@ FN vec1 microfacets(vec1 roughness, vec1 n_l, vec1 n_v, vec1 n_h) {
   return distribution * masking;
 }
 
+// How much of what a mirror lobe would show, of the sky and of lights of one direction, is left to rays that
+// go on from the surface.
+struct Traced {
+  vec1 base_sky;
+  vec1 base_lights;
+  vec1 coat_sky;
+  vec1 coat_lights;
+};
+
+FN Traced nothing_traced() {
+  Traced traced;
+  traced.base_sky = 0.0f;
+  traced.base_lights = 0.0f;
+  traced.coat_sky = 0.0f;
+  traced.coat_lights = 0.0f;
+  return traced;
+}
+
 // Below the coat.
-FN vec3 base_reflected(IN(Surface) s, vec3 to_light) {
+FN vec3 base_reflected(IN(Surface) s, vec3 to_light, vec1 highlight) {
   vec1 n_l = dot3(s.normal, to_light);
   bvec1 lit = n_l > 0.0f;
   if (!any_lane(lit)) return vec3(0.0f, 0.0f, 0.0f);
@@ -156,7 +174,7 @@ FN vec3 base_reflected(IN(Surface) s, vec3 to_light) {
   vec1 f90 = grazing_reflectance(s);
   vec3 fresnel = f0 + (vec3(f90, f90, f90) - f0) * fresnel_power(v_h);
   vec3 diffuse = diffuse_color(s) * (vec3(1.0f, 1.0f, 1.0f) - fresnel) * (1.0f / pi);
-  vec3 sent = (diffuse + fresnel * microfacets(s.roughness, n_l, n_v, n_h)) * n_l;
+  vec3 sent = (diffuse + fresnel * (microfacets(s.roughness, n_l, n_v, n_h) * highlight)) * n_l;
   return select(lit, sent, vec3(0.0f, 0.0f, 0.0f));
 }
 
@@ -169,14 +187,15 @@ FN vec3 coated(IN(Surface) s, vec3 base, vec3 coat) {
 }
 
 // The BRDF times the cosine, for light from `to_light` (unit length). Nothing of what passes through.
-FN vec3 reflected(IN(Surface) s, vec3 to_light) {
-  vec3 base = base_reflected(s, to_light);
+FN vec3 reflected(IN(Surface) s, vec3 to_light, IN(Traced) traced) {
+  vec3 base = base_reflected(s, to_light, 1.0f - traced.base_lights);
   if (!any_lane(s.clearcoat > 0.0f)) return base;
   vec1 n_l = dot3(s.clearcoat_normal, to_light);
   vec1 n_v = max2(dot3(s.clearcoat_normal, s.view), 1e-4f);
   vec3 half_way = normalize_or(to_light + s.view, s.clearcoat_normal);
   vec1 n_h = saturate(dot3(s.clearcoat_normal, half_way));
   vec1 coat = select(n_l > 0.0f, microfacets(s.clearcoat_roughness, n_l, n_v, n_h) * n_l, 0.0f);
+  coat = coat * (1.0f - traced.coat_lights);
   return coated(s, base, vec3(coat, coat, coat));
 }
 
@@ -274,12 +293,12 @@ struct LightSample {
 };
 
 // Of any light but the sky (layout/sky_light.h).
-FN LightSample sample_light(IN(LightRecord) light, IN(Surface) s) {
+FN LightSample sample_light(IN(LightRecord) light, IN(Surface) s, IN(Traced) traced) {
   LightSample result;
   Arrival arrival = arriving_light(light, s.position, s.normal);
   result.direction = arrival.direction;
   result.distance = arrival.distance;
-  result.radiance = reflected(s, arrival.direction) * light.color * arrival.falloff;
+  result.radiance = reflected(s, arrival.direction, traced) * light.color * arrival.falloff;
   return result;
 }
 

@@ -7,7 +7,7 @@ FN vec3 mirrored_sky(vec3 normal, vec3 view) {
   return environment_radiance(normalize_or(mirror, normal));
 }
 
-FN LightSample sample_sky(IN(Surface) s, vec2 xi) {
+FN LightSample sample_sky(IN(Surface) s, vec2 xi, IN(Traced) traced) {
   LightSample result;
   result.distance = 1e30f;
   vec1 weight = 1.0f;
@@ -27,10 +27,11 @@ FN LightSample sample_sky(IN(Surface) s, vec2 xi) {
     weight = select(sum > 0.0f, 2.0f * cosine_pdf / sum, 0.0f);
   }
   vec3 f = sky_specular(s);
-  vec3 sent =
-      diffuse_color(s) * environment_radiance(result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
-      f * mirrored_sky(s.normal, s.view);
-  if (any_lane(s.clearcoat > 0.0f)) sent = coated(s, sent, mirrored_sky(s.clearcoat_normal, s.view));
+  vec3 sent = diffuse_color(s) * environment_radiance(result.direction) * (vec3(1.0f, 1.0f, 1.0f) - f) +
+              f * (mirrored_sky(s.normal, s.view) * (1.0f - traced.base_sky));
+  if (any_lane(s.clearcoat > 0.0f)) {
+    sent = coated(s, sent, mirrored_sky(s.clearcoat_normal, s.view) * (1.0f - traced.coat_sky));
+  }
   result.radiance = sent * s.occlusion;
   if (environment_map != 0u) result.radiance = result.radiance * weight;
   return result;

@@ -252,15 +252,18 @@ namespace {
 void add_integrator_options(CLI::App& app, PictureOptions& options) {
   using render::Integrator;
   static const std::map<std::string, Integrator> integrators = {
-      {"eye", Integrator::eye}, {"dof", Integrator::dof}, {"ao", Integrator::ao}, {"path", Integrator::path}};
+      {"eye", Integrator::eye},           {"dof", Integrator::dof},       {"ao", Integrator::ao},
+      {"specular", Integrator::specular}, {"glossy", Integrator::glossy}, {"path", Integrator::path}};
   add_value(app, "--integrator", "NAME",
             "eye (direct light where the camera's rays end; default), dof (the same through a lens), ao "
-            "(ambient occlusion) or path (all light, by path tracing). All but eye want many --spp",
+            "(ambient occlusion), specular (and what smooth surfaces mirror and refract), glossy (and what "
+            "rough ones do) or path (all light, by path tracing). dof, ao, glossy and path want many --spp",
             [&](const std::string& text) {
-              parse_choice("--integrator", text, {"eye", "dof", "ao", "path"});
+              parse_choice("--integrator", text, {"eye", "dof", "ao", "specular", "glossy", "path"});
               options.integrator = integrators.at(text);
             });
-  add_value(app, "--max-bounces", "N", "Surfaces that a path may go on from (default: 8)",
+  add_value(app, "--max-bounces", "N",
+            "With specular, glossy and path: surfaces that a ray may go on from (default: 8)",
             [&](const std::string& text) {
               options.max_bounces = uint32_t(parse_count("--max-bounces", text, 0, max_bounces));
             });

@@ -111,7 +111,14 @@ constexpr Binding shade_bindings[] = {SURFACE_BINDINGS,
                                       {"contributions", quad, write},
                                       {"shadow_rays", quad, write},
                                       {"radiance", quad, read_write},
-                                      ENVIRONMENT_BINDINGS};
+                                      ENVIRONMENT_BINDINGS,
+                                      {"paths", quad, read}};
+
+constexpr Binding branch_bindings[] = {SURFACE_BINDINGS,
+                                       {"rays", quad, read_write},
+                                       {"paths", quad, read_write},
+                                       {"branches", quad, read_write},
+                                       {"going_on", structs, read_write}};
 
 constexpr Binding ambient_bindings[] = {SURFACE_BINDINGS,
                                         {"rays", quad, read},
@@ -126,7 +133,8 @@ constexpr Binding path_bindings[] = {SURFACE_BINDINGS,
                                      {"shadow_rays", quad, write},
                                      {"radiance", quad, read_write},
                                      {"paths", quad, read_write},
-                                     {"alive", structs, read_write}};
+                                     {"going_on", structs, read_write},
+                                     ENVIRONMENT_BINDINGS};
 
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
@@ -174,6 +182,7 @@ const PassDecl occlude_boxes{"occlude", "geometry_image/trace_boxes", trace_boxe
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
 const PassDecl ambient{"shade", "geometry_image/ambient", ambient_bindings, sizeof(AmbientPush)};
+const PassDecl branch{"scatter", "geometry_image/branch", branch_bindings, sizeof(PathPush)};
 const PassDecl path{"shade", "geometry_image/path", path_bindings, sizeof(PathPush)};
 const PassDecl accumulate{"accumulate", "geometry_image/accumulate", accumulate_bindings, sizeof(CountPush)};
 const PassDecl aov{"aov", "geometry_image/aov", aov_bindings, sizeof(RayPush)};

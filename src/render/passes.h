@@ -11,6 +11,6 @@ extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rast
     wide_nodes, boxes_leaves, boxes;
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, occlude_threaded,
     occlude_octant, occlude_wide, occlude_boxes;
-extern const PassDecl mask, shade, ambient, path, accumulate, aov, resolve;
+extern const PassDecl mask, shade, ambient, branch, path, accumulate, aov, resolve;
 
 }  // namespace lodestone::render::passes

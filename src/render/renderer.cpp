@@ -6,93 +6,29 @@
 #include <cmath>
 
 #include "lodestone/base/error.h"
-#include "lodestone/layout/frame.h"
-#include "lodestone/render/environment_tables.h"
 #include "lodestone/render/film.h"
 #include "lodestone/render/focus.h"
 #include "lodestone/render/passes.h"
-#include "lodestone/render/relaxation.h"
-#include "lodestone/render/scene_tables.h"
-#include "lodestone/render/tracing.h"
+#include "lodestone/render/renderer_state.h"
 #include "lodestone/render/view.h"
-#include "lodestone/scene/pose_box.h"
-#include "lodestone/scene/pose_reach.h"
 
 namespace lodestone::render {
 namespace {
 
-constexpr uint32_t batch_rays = 1u << 18;
+constexpr uint32_t most_batch_rays = 1u << 18;
+constexpr uint64_t most_branches = 1u << 21;  // that wait, 48 bytes each
 
 template <class T>
 void download_all(Backend& backend, const Buffer& buffer, std::vector<T>& items) {
   backend.download(buffer.id(), std::as_writable_bytes(std::span(items)), 0);
 }
 
+bool goes_on(Integrator integrator) {
+  return integrator == Integrator::specular || integrator == Integrator::glossy ||
+         integrator == Integrator::path;
+}
+
 }  // namespace
-
-struct Renderer::State {
-  Backend& backend;
-  const scene::Scene& scene;
-  const scene::Assembly& assembly;
-  const geometry_image::Atlas& atlas;
-  Settings settings;
-  SceneTables tables;
-  EnvironmentTables environment;
-  Tracing tracing;
-  scene::PoseReach reach;
-  scene::PoseBox pose_box;
-  std::optional<Relaxation> relaxation;
-  std::vector<PassRecord> setup;
-
-  // Rewritten every frame.
-  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map;
-  Buffer frame, lights;
-  RayBuffers primary, shadow, loaded;
-  uint32_t loaded_rays = 0;
-  Buffer contributions, radiance, paths, alive, beauty, display, aovs;
-  uint32_t light_count = 0, sky_lights = 0;
-
-  State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
-        const geometry_image::Atlas& atlas_in, const Settings& settings_in);
-
-  uint32_t total_rays() const {
-    return 64 * layout::tile_count(settings.width) * layout::tile_count(settings.height);
-  }
-
-  template <class Push>
-  void run(const PassDecl& pass, const std::vector<BufferId>& buffers, const Push& push, uint32_t invocations,
-           std::array<uint32_t, pass_constants> constants = {}) {
-    backend.run({&pass, buffers, std::as_bytes(std::span(&push, 1)), invocations, constants});
-  }
-
-  std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
-    std::vector<BufferId> ids = {
-        rays.hits.id(),        geometry.id(),         normal_map.id(),        texel_map(),
-        tables.triangles.id(), positions.id(),        normals.id(),           tangents.id(),
-        tables.texcoords.id(), tables.images.id(),    tables.srgb_table.id(), tables.charts.id(),
-        tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id()};
-    ids.insert(ids.end(), more);
-    return ids;
-  }
-
-  bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
-
-  // Of this frame.
-  BufferId texel_map() const { return relaxation ? relaxation->texel_map() : tables.texel_map.id(); }
-
-  void prepare_relaxation();
-  void blend(const scene::Pose& pose, const Buffer& blended_positions);
-  void update(const scene::Pose& pose);
-  float find_focus(const View& view);
-  void begin_frame(const scene::Pose& pose, const View& view);
-  bool trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
-  bool integrate(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool eye_sample(layout::RayPush push, const Interrupted& interrupted);
-  bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool add_unblocked(uint32_t count, const Interrupted& interrupted);
-  bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
-};
 
 Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
                        const geometry_image::Atlas& atlas_in, const Settings& settings_in)
@@ -116,14 +52,23 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   geometry = Buffer(device, {"geometry", texels, 16});
   normal_map = Buffer(device, {"normal_map", texels, 16});
   frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
-  const uint32_t rays = std::min(batch_rays, total_rays());
+  const bool splits = settings.integrator == Integrator::specular, eye = !goes_on(settings.integrator);
+  if (splits && settings.max_bounces > most_specular_bounces) {
+    fail(ExitCode::usage, "--max-bounces",
+         "specular follows both halves of a ray that splits, at most {} times", most_specular_bounces);
+  }
+  const uint32_t rays = std::min(most_batch_rays, total_rays());
+  const uint32_t waiting = splits ? settings.max_bounces : 0;
+  // Whole tiles, so that rays that are side by side in the picture stay so.
+  batch_rays = waiting == 0 ? rays : std::min<uint64_t>(rays, most_branches / waiting / 64 * 64);
   const uint64_t pixels = uint64_t(settings.width) * settings.height;
-  primary = RayBuffers(device, "", rays);
-  shadow = RayBuffers(device, "shadow_", rays);
-  contributions = Buffer(device, {"contributions", rays, 16});
-  radiance = Buffer(device, {"radiance", rays, 16});
-  paths = Buffer(device, {"paths", settings.integrator == Integrator::path ? rays : 0, 16});
-  alive = Buffer(device, {"alive", 1, 4});
+  primary = RayBuffers(device, "", batch_rays);
+  shadow = RayBuffers(device, "shadow_", batch_rays);
+  contributions = Buffer(device, {"contributions", batch_rays, 16});
+  radiance = Buffer(device, {"radiance", batch_rays, 16});
+  paths = Buffer(device, {"paths", eye ? 0 : batch_rays, 16});
+  branches = Buffer(device, {"branches", 3 * uint64_t(batch_rays) * waiting, 16});
+  going_on = Buffer(device, {"going_on", 1, 4});
   beauty = Buffer(device, {"beauty", pixels, 16});
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
@@ -226,73 +171,10 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, Trace
   return false;
 }
 
-// What the shadow rays carry, where nothing is in their way. False: interrupted.
-bool Renderer::State::add_unblocked(uint32_t count, const Interrupted& interrupted) {
-  if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true}, interrupted)) return false;
-  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
-      count);
-  return true;
-}
-
-// One sample of a batch whose rays have found what they hit: direct light. False: interrupted.
-bool Renderer::State::eye_sample(layout::RayPush push, const Interrupted& interrupted) {
-  for (uint32_t light = 0; light < light_count; ++light) {
-    push.light = light;
-    run(passes::shade,
-        surface_buffers(
-            primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance.id(),
-                      environment.environments.id(), environment.quads.id(), environment.cells.id()}),
-        push, push.rays, {tables.sources, tables.layered, environment.map});
-    if (!add_unblocked(push.rays, interrupted)) return false;
-  }
-  return true;
-}
-
-bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
-  run(passes::ambient,
-      surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
-      layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
-      rays.rays, {tables.sources, tables.layered});
-  return add_unblocked(rays.rays, interrupted);
-}
-
-// The same by path tracing, vertex by vertex, until no path is left.
-bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
-  const uint32_t zero = 0;
-  for (uint32_t vertex = 0;; ++vertex) {
-    const layout::PathPush push{
-        rays.first_ray,       rays.rays,   rays.sample_index, vertex,
-        settings.max_bounces, light_count, sky_lights,        vertex == 0 ? rays.first : 0};
-    backend.upload(alive.id(), std::as_bytes(std::span(&zero, 1)));
-    run(passes::path,
-        surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
-                                  radiance.id(), paths.id(), alive.id()}),
-        push, push.rays, {tables.sources, tables.layered});
-    uint32_t left = 0;
-    backend.download(alive.id(), std::as_writable_bytes(std::span(&left, 1)), 0);
-    if (!add_unblocked(push.rays, interrupted)) return false;
-    if (left == 0) return true;
-    if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
-  }
-}
-
-bool Renderer::State::integrate(const layout::RayPush& rays, const Interrupted& interrupted) {
-  switch (settings.integrator) {
-    case Integrator::eye:
-    case Integrator::dof:
-      return eye_sample(rays, interrupted);
-    case Integrator::ao:
-      return ambient_sample(rays, interrupted);
-    case Integrator::path:
-      return path_sample(rays, interrupted);
-  }
-  return false;
-}
-
 // All samples of a run of pixels. False: interrupted.
 bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted) {
   if (!settings.aovs.empty()) {
-    const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1};
+    const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1, 0, 0};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, {.steps = true}, interrupted)) return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
@@ -305,7 +187,9 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
                                settings.spp == 1 ? 1u : 0u,
                                has_lens() ? 0u : 1u,
                                0,
-                               sample == 0 ? 1u : 0u};
+                               sample == 0 ? 1u : 0u,
+                               0,
+                               settings.max_bounces};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, {}, interrupted)) return false;
     if (!integrate(push, interrupted)) return false;
@@ -328,8 +212,8 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
   s.update(pose);
   s.begin_frame(pose, view);
   const uint32_t total = s.total_rays();
-  for (uint32_t first = 0; first < total; first += batch_rays) {
-    if (!s.render_batch(first, std::min(batch_rays, total - first), interrupted)) {
+  for (uint32_t first = 0; first < total; first += s.batch_rays) {
+    if (!s.render_batch(first, std::min(s.batch_rays, total - first), interrupted)) {
       s.backend.finish();
       return std::nullopt;
     }
@@ -387,7 +271,7 @@ std::vector<glm::uvec4> Renderer::hits() {
 }
 
 const char* to_string(Integrator integrator) {
-  const char* names[] = {"eye", "dof", "ao", "path"};
+  const char* names[] = {"eye", "dof", "ao", "specular", "glossy", "path"};
   return names[static_cast<uint32_t>(integrator)];
 }
 

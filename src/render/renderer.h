@@ -22,8 +22,13 @@ namespace lodestone::render {
 // `automatic` takes the fastest of the back end.
 enum class Traversal : uint32_t { automatic, threaded, octant, wide };
 // `eye`: direct light where the camera's rays end; `dof`: the same through a lens of some size. `ao`: ambient
-// occlusion there, 1 where nothing is near. `path`: all light, by path tracing.
-enum class Integrator : uint32_t { eye, dof, ao, path };
+// occlusion there, 1 where nothing is near. Rays go on with `specular` (direct light, and what smooth
+// surfaces mirror and let through), `glossy` (the same of rough ones, by a drawn ray) and `path` (all light,
+// by path tracing).
+enum class Integrator : uint32_t { eye, dof, ao, specular, glossy, path };
+
+// With `specular`.
+inline constexpr uint32_t most_specular_bounces = 64;
 enum class ViewTransform : uint32_t { filmic, linear };
 
 struct Settings {
@@ -31,7 +36,7 @@ struct Settings {
   uint32_t spp = 1;
   uint32_t seed = 0;
   Integrator integrator = Integrator::eye;
-  uint32_t max_bounces = 8;   // surfaces that a path goes on from
+  uint32_t max_bounces = 8;   // surfaces that a ray goes on from, where rays do
   float ao_distance = 1e30f;  // beyond which nothing occludes
   float lens_radius = 0;      // scene units; 0: all is sharp, but with `dof`, which takes a 40th of the focus
   float focus_distance = 0;   // along the view direction; 0: to what is nearest to the picture's middle

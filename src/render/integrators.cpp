@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// From what the camera's rays have hit to the light that they carry, each integrator as passes.
+#include "lodestone/layout/recursion.h"
+#include "lodestone/render/passes.h"
+#include "lodestone/render/renderer_state.h"
+
+namespace lodestone::render {
+
+// Of the paths or rays that go on.
+void Renderer::State::count_from_zero() {
+  const uint32_t zero = 0;
+  backend.upload(going_on.id(), std::as_bytes(std::span(&zero, 1)));
+}
+uint32_t Renderer::State::counted() {
+  uint32_t count = 0;
+  backend.download(going_on.id(), std::as_writable_bytes(std::span(&count, 1)), 0);
+  return count;
+}
+
+// What the shadow rays carry, where nothing is in their way.
+bool Renderer::State::add_unblocked(uint32_t count, const Interrupted& interrupted) {
+  if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true}, interrupted)) return false;
+  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
+      count);
+  return true;
+}
+
+// Of every light, at what the rays have hit; `recursion`: see layout/recursion.h.
+bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, const Interrupted& interrupted) {
+  for (uint32_t light = 0; light < light_count; ++light) {
+    push.light = light;
+    run(passes::shade,
+        surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
+                                  radiance.id(), environment.environments.id(), environment.quads.id(),
+                                  environment.cells.id(), paths.id()}),
+        push, push.rays, {tables.sources, tables.layered, environment.map, recursion});
+    if (!add_unblocked(push.rays, interrupted)) return false;
+  }
+  return true;
+}
+
+bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
+  run(passes::ambient,
+      surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
+      layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
+      rays.rays, {tables.sources});
+  return add_unblocked(rays.rays, interrupted);
+}
+
+// Direct light wherever a ray arrives, until none goes on.
+bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t recursion,
+                                       const Interrupted& interrupted) {
+  layout::RayPush light_push = rays;
+  for (;; ++light_push.vertex) {
+    if (light_push.vertex > 0) light_push.first = 0;
+    if (!direct_light(light_push, recursion, interrupted)) return false;
+    const layout::PathPush push{rays.first_ray,       rays.rays,   rays.sample_index, light_push.vertex,
+                                settings.max_bounces, light_count, sky_lights,        0};
+    count_from_zero();
+    run(passes::branch,
+        surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push,
+        push.rays, {tables.sources, tables.layered, 0, recursion});
+    if (counted() == 0) return true;
+    if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
+  }
+}
+
+// Vertex by vertex, until no path goes on.
+bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
+  for (uint32_t vertex = 0;; ++vertex) {
+    const layout::PathPush push{
+        rays.first_ray,       rays.rays,   rays.sample_index, vertex,
+        settings.max_bounces, light_count, sky_lights,        vertex == 0 ? rays.first : 0};
+    count_from_zero();
+    run(passes::path,
+        surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
+                                  radiance.id(), paths.id(), going_on.id(), environment.environments.id(),
+                                  environment.quads.id(), environment.cells.id()}),
+        push, push.rays, {tables.sources, tables.layered, environment.map});
+    const bool last = counted() == 0;
+    if (!add_unblocked(push.rays, interrupted)) return false;
+    if (last) return true;
+    if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
+  }
+}
+
+bool Renderer::State::integrate(const layout::RayPush& rays, const Interrupted& interrupted) {
+  switch (settings.integrator) {
+    case Integrator::eye:
+    case Integrator::dof:
+      return direct_light(rays, layout::recursion_none, interrupted);
+    case Integrator::ao:
+      return ambient_sample(rays, interrupted);
+    case Integrator::specular:
+      return recursive_sample(rays, layout::recursion_specular, interrupted);
+    case Integrator::glossy:
+      return recursive_sample(rays, layout::recursion_glossy, interrupted);
+    case Integrator::path:
+      return path_sample(rays, interrupted);
+  }
+  return false;
+}
+
+}  // namespace lodestone::render

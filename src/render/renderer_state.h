@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What renderer.cpp and integrators.cpp share.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lodestone/layout/frame.h"
+#include "lodestone/render/environment_tables.h"
+#include "lodestone/render/relaxation.h"
+#include "lodestone/render/renderer.h"
+#include "lodestone/render/scene_tables.h"
+#include "lodestone/render/tracing.h"
+#include "lodestone/scene/pose_box.h"
+#include "lodestone/scene/pose_reach.h"
+
+namespace lodestone::render {
+
+struct Renderer::State {
+  Backend& backend;
+  const scene::Scene& scene;
+  const scene::Assembly& assembly;
+  const geometry_image::Atlas& atlas;
+  Settings settings;
+  SceneTables tables;
+  EnvironmentTables environment;
+  Tracing tracing;
+  scene::PoseReach reach;
+  scene::PoseBox pose_box;
+  std::optional<Relaxation> relaxation;
+  std::vector<PassRecord> setup;
+
+  // Rewritten every frame.
+  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map;
+  Buffer frame, lights;
+  RayBuffers primary, shadow, loaded;
+  uint32_t loaded_rays = 0;
+  Buffer contributions, radiance, paths, branches, going_on, beauty, display, aovs;
+  uint32_t light_count = 0, sky_lights = 0;
+  uint32_t batch_rays = 0;
+
+  State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
+        const geometry_image::Atlas& atlas_in, const Settings& settings_in);
+
+  uint32_t total_rays() const {
+    return 64 * layout::tile_count(settings.width) * layout::tile_count(settings.height);
+  }
+
+  template <class Push>
+  void run(const PassDecl& pass, const std::vector<BufferId>& buffers, const Push& push, uint32_t invocations,
+           std::array<uint32_t, pass_constants> constants = {}) {
+    backend.run({&pass, buffers, std::as_bytes(std::span(&push, 1)), invocations, constants});
+  }
+
+  std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
+    std::vector<BufferId> ids = {
+        rays.hits.id(),        geometry.id(),         normal_map.id(),        texel_map(),
+        tables.triangles.id(), positions.id(),        normals.id(),           tangents.id(),
+        tables.texcoords.id(), tables.images.id(),    tables.srgb_table.id(), tables.charts.id(),
+        tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id()};
+    ids.insert(ids.end(), more);
+    return ids;
+  }
+
+  bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
+
+  // Of this frame.
+  BufferId texel_map() const { return relaxation ? relaxation->texel_map() : tables.texel_map.id(); }
+
+  void prepare_relaxation();
+  void blend(const scene::Pose& pose, const Buffer& blended_positions);
+  void update(const scene::Pose& pose);
+  float find_focus(const View& view);
+  void begin_frame(const scene::Pose& pose, const View& view);
+  bool trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
+  bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
+
+  // integrators.cpp: one sample of a batch whose rays have found what they hit. False: interrupted.
+  bool integrate(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool direct_light(layout::RayPush push, uint32_t recursion, const Interrupted& interrupted);
+  bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool recursive_sample(const layout::RayPush& rays, uint32_t recursion, const Interrupted& interrupted);
+  bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
+  bool add_unblocked(uint32_t count, const Interrupted& interrupted);
+  void count_from_zero();
+  uint32_t counted();
+};
+
+}  // namespace lodestone::render
