@@ -81,11 +81,24 @@ Json describe_material(const scene::Material& material) {
       {"metallic_roughness", material.metallic_roughness_texture},
       {"normal", material.normal_texture},
       {"occlusion", material.occlusion_texture},
-      {"emissive", material.emissive_texture}};
+      {"emissive", material.emissive_texture},
+      {"specular", material.specular_texture},
+      {"specular_color", material.specular_color_texture},
+      {"transmission", material.transmission_texture},
+      {"clearcoat", material.clearcoat_texture},
+      {"clearcoat_roughness", material.clearcoat_roughness_texture},
+      {"clearcoat_normal", material.clearcoat_normal_texture}};
   for (const auto& [name, texture] : all) {
     if (texture.image != scene::none) textures.push_back(name);
   }
-  return {{"name", material.name}, {"textures", textures}};
+  Json json = {{"name", material.name}, {"textures", textures}};
+  if (material.transmission > 0) {
+    json["transmission"] = material.transmission;
+    json["ior"] = material.ior;
+    json["solid"] = material.thickness > 0;
+  }
+  if (material.clearcoat > 0) json["clearcoat"] = material.clearcoat;
+  return json;
 }
 
 Json describe_bounds(const scene::Bounds& bounds) {

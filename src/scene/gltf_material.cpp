@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials, textures and samplers (3.8, 3.9), KHR_texture_transform, KHR_materials_emissive_strength.
+// Materials, textures and samplers (3.8, 3.9), KHR_texture_transform, and of KHR_materials_*
+// emissive_strength, ior, specular, transmission, volume (without its texture) and clearcoat.
 #include <algorithm>
 #include <cmath>
 
@@ -38,6 +39,9 @@ class MaterialConverter {
     to.normal_texture = texture(from.normalTexture, "normalTexture");
     to.occlusion_texture = texture(from.occlusionTexture, "occlusionTexture");
     to.emissive_texture = texture(from.emissiveTexture, "emissiveTexture");
+    set_specular(from, to);
+    set_transmission(from, to);
+    set_clearcoat(from, to);
     return to;
   }
 
@@ -51,6 +55,27 @@ class MaterialConverter {
     return gltf_float(reader_, value.GetNumberAsDouble(), use);
   }
 
+  // Not below `least`; `absent` where `extension` does not have it.
+  float factor(const tinygltf::Value& extension, const char* name, float absent, float least = 0) const {
+    const tinygltf::Value* value = gltf_member(extension, name);
+    return value == nullptr ? absent : std::max(number(*value, label_ + ", " + name), least);
+  }
+  float unit_factor(const tinygltf::Value& extension, const char* name, float absent) const {
+    return std::min(factor(extension, name, absent), 1.0f);
+  }
+
+  // White where it is absent.
+  glm::vec3 color_factor(const tinygltf::Value& extension, const char* name) const {
+    const tinygltf::Value* value = gltf_member(extension, name);
+    if (value == nullptr) return glm::vec3(1);
+    const std::string use = label_ + ", " + name;
+    if (!value->IsArray() || value->ArrayLen() != 3) {
+      fail_input(reader_.file(), "{}: must be three numbers; export it again", use);
+    }
+    return glm::max(
+        glm::vec3(number(value->Get(0), use), number(value->Get(1), use), number(value->Get(2), use)), 0.0f);
+  }
+
   glm::vec2 pair(const tinygltf::Value& value, const std::string& use) const {
     if (!value.IsArray() || value.ArrayLen() != 2) {
       fail_input(reader_.file(), "{}: must be two numbers; export it again", use);
@@ -58,11 +83,59 @@ class MaterialConverter {
     return {number(value.Get(0), use), number(value.Get(1), use)};
   }
 
+  // Null where the material does not have it.
+  const tinygltf::Value* extension(const tinygltf::Material& from, const char* name) const {
+    const auto found = from.extensions.find(name);
+    return found == from.extensions.end() ? nullptr : &found->second;
+  }
+
   float emissive_strength(const tinygltf::Material& from) const {
-    const auto extension = from.extensions.find("KHR_materials_emissive_strength");
-    if (extension == from.extensions.end()) return 1;
-    const tinygltf::Value* strength = gltf_member(extension->second, "emissiveStrength");
+    const tinygltf::Value* values = extension(from, "KHR_materials_emissive_strength");
+    const tinygltf::Value* strength = values == nullptr ? nullptr : gltf_member(*values, "emissiveStrength");
     return strength == nullptr ? 1 : number(*strength, label_ + ", emissiveStrength");
+  }
+
+  void set_specular(const tinygltf::Material& from, Material& to) const {
+    if (const tinygltf::Value* values = extension(from, "KHR_materials_ior")) {
+      const float ior = factor(*values, "ior", to.ior);
+      to.ior = ior == 0 ? 0 : std::max(ior, 1.0f);
+    }
+    if (const tinygltf::Value* values = extension(from, "KHR_materials_specular")) {
+      to.specular = unit_factor(*values, "specularFactor", 1);
+      to.specular_color = color_factor(*values, "specularColorFactor");
+      to.specular_texture = extension_texture(*values, "specularTexture");
+      to.specular_color_texture = extension_texture(*values, "specularColorTexture");
+    }
+  }
+
+  void set_transmission(const tinygltf::Material& from, Material& to) const {
+    if (const tinygltf::Value* values = extension(from, "KHR_materials_transmission")) {
+      to.transmission = unit_factor(*values, "transmissionFactor", 0);
+      to.transmission_texture = extension_texture(*values, "transmissionTexture");
+    }
+    const tinygltf::Value* values = extension(from, "KHR_materials_volume");
+    if (values == nullptr) return;
+    to.thickness = factor(*values, "thicknessFactor", 0);
+    to.attenuation_color = glm::min(color_factor(*values, "attenuationColor"), 1.0f);
+    to.attenuation_distance = factor(*values, "attenuationDistance", 0);
+    if (gltf_member(*values, "thicknessTexture") != nullptr) {
+      log::warn_once(reader_.file() + " thickness texture",
+                     fmt::format("{}: {}: a thickness texture is ignored; rays find how thick the mesh is",
+                                 reader_.file(), label_));
+    }
+  }
+
+  void set_clearcoat(const tinygltf::Material& from, Material& to) const {
+    const tinygltf::Value* values = extension(from, "KHR_materials_clearcoat");
+    if (values == nullptr) return;
+    to.clearcoat = unit_factor(*values, "clearcoatFactor", 0);
+    to.clearcoat_roughness = unit_factor(*values, "clearcoatRoughnessFactor", 0);
+    to.clearcoat_texture = extension_texture(*values, "clearcoatTexture");
+    to.clearcoat_roughness_texture = extension_texture(*values, "clearcoatRoughnessTexture");
+    to.clearcoat_normal_texture = extension_texture(*values, "clearcoatNormalTexture");
+    const tinygltf::Value* normal = gltf_member(*values, "clearcoatNormalTexture");
+    const tinygltf::Value* scale = normal == nullptr ? nullptr : gltf_member(*normal, "scale");
+    if (scale != nullptr) to.clearcoat_normal_scale = number(*scale, label_ + ", clearcoatNormalTexture");
   }
 
   void set_alpha(const tinygltf::Material& from, Material& to) const {
@@ -129,6 +202,25 @@ class MaterialConverter {
     to.wrap_v = wrap(model_.samplers[sampler].wrapT);
     to.nearest = model_.samplers[sampler].magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     return to;
+  }
+
+  // Of an extension; tinygltf leaves those as it found them.
+  Texture extension_texture(const tinygltf::Value& extension, const char* name) const {
+    const tinygltf::Value* value = gltf_member(extension, name);
+    if (value == nullptr) return {};
+    const tinygltf::Value* index = gltf_member(*value, "index");
+    const tinygltf::Value* set = gltf_member(*value, "texCoord");
+    if (index == nullptr || !index->IsInt() || (set != nullptr && !set->IsInt())) {
+      fail_input(reader_.file(), "{}, {}: must be an object with the index of a texture; export it again",
+                 label_, name);
+    }
+    tinygltf::TextureInfo info;
+    info.index = index->Get<int>();
+    if (set != nullptr) info.texCoord = set->Get<int>();
+    if (const tinygltf::Value* more = gltf_member(*value, "extensions")) {
+      for (const std::string& key : more->Keys()) info.extensions.emplace(key, more->Get(key));
+    }
+    return texture(info, name);
   }
 
   // Translation x rotation x scale. A positive angle turns counter-clockwise as seen with v pointing down;

@@ -17,6 +17,7 @@ namespace lodestone::scene {
 namespace {
 
 constexpr size_t max_depth = 128;
+constexpr std::string_view material_extensions = "KHR_materials_";
 // What nlohmann and tinygltf together make of the JSON, and what of it one value takes: an element of an
 // array, a property of an object, either of them in `extras` or `extensions`.
 constexpr uint64_t max_bytes = uint64_t(1) << 30;
@@ -262,11 +263,21 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
+  bool names_material_extension(const Frame& holder) const {
+    return holder.is_free && holder.name == "extensions" && key_.starts_with(material_extensions);
+  }
+
   // Of the extensions that are read, what tinygltf would take for absent.
   void check_extension(const Frame& holder, const Scalar& v) const {
     const bool index = (holder.name == "KHR_lights_punctual" && key_ == "light") ||
                        (holder.name == "KHR_texture_transform" && key_ == "texCoord");
-    if (index && !v.is_index()) fail_type("an index");
+    const bool of_texture = frames_.size() > 2 && holder.name.ends_with("Texture") &&
+                            frames_[frames_.size() - 2].name.starts_with(material_extensions) &&
+                            (key_ == "index" || key_ == "texCoord");
+    if ((index || of_texture) && !v.is_index()) fail_type("an index");
+    if (names_material_extension(holder)) fail_type("an object");
+    const bool null = v.kind == Scalar::Kind::other;
+    if (null && holder.name.starts_with(material_extensions)) fail_type("a value, not null");
     const bool of_light = frames_.size() > 4 && frames_[2].name == "KHR_lights_punctual";
     if (!of_light || v.is_number()) return;
     const bool number = holder.is_array ? holder.name == "color"
@@ -357,6 +368,7 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
       const bool named = !frames_.back().is_array;
       is_free = frames_.back().is_free || (named && (key_ == "extras" || key_ == "extensions"));
       if (!is_free) check_container(is_array, named);
+      if (is_array && named && names_material_extension(frames_.back())) fail_type("an object");
     }
     if (frames_.size() >= max_depth) {
       fail_input(gltf_.file, "nests JSON values more than {} deep at {}; export it again", max_depth,

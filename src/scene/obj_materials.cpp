@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MTL as Wavefront described it, with the Pr and Pm of the physically based extension (Exocortex, 2015).
+// MTL as Wavefront described it, with the Pr, Pm, Pc and Pcr of the physically based extension (Exocortex,
+// 2015).
 #include "lodestone/scene/obj_materials.h"
 
 #include <algorithm>
@@ -60,10 +61,21 @@ class MtlParser {
         parse_property(keyword);
       }
     } while (reader_.next_line());
+    end_material();
   }
 
  private:
+  // What its statements say together about light that enters it.
+  struct Transparency {
+    float opacity = 1;
+    uint64_t line = 0;  // of the first statement by which it is less than 1; 0: of none
+    float illum = 2;
+    float ior = 0;  // 0: not said
+    glm::vec3 filter{1};
+  };
+
   void begin_material() {
+    end_material();
     const std::string name(reader_.rest_of_line());
     const auto [entry, is_new] =
         into_.materials_by_name_.emplace(name, static_cast<uint32_t>(into_.materials_.size()));
@@ -80,6 +92,31 @@ class MtlParser {
     has_roughness_ = false;
   }
 
+  // Only some illumination models let light through, 6 and 7 refract it. What is `d` to the others is a
+  // cut-out or nothing: they stay opaque.
+  void end_material() {
+    const Transparency seen = std::exchange(transparency_, {});
+    if (material_ == nullptr) return;
+    const bool refracts = seen.illum == 6 || seen.illum == 7;
+    const bool lets_through = refracts || seen.illum == 4 || seen.illum == 9;
+    // A model that refracts says by itself that it is clear; exporters name the others for all they write.
+    const float transmission = seen.line != 0 ? 1 - seen.opacity : refracts ? 1.0f : 0.0f;
+    if (lets_through && transmission > 0) {
+      material_->transmission = transmission;
+      material_->thickness = refracts ? 1.0f : 0.0f;
+      // One colour tints both the light that passes and the light that is scattered.
+      const glm::vec3 color =
+          glm::mix(glm::vec3(material_->base_color), glm::clamp(seen.filter, 0.0f, 1.0f), transmission);
+      material_->base_color = glm::vec4(color, 1);
+    } else if (seen.line != 0) {
+      into_.warn_once("d", fmt::format("{}: line {}: material {} is transparent, but drawn opaque",
+                                       reader_.file(), seen.line, printable(material_->name)));
+    }
+    // Many exporters write 1, of which no light is reflected, where they know no better.
+    const bool says_ior = seen.ior > 1 || (seen.ior > 0 && material_->transmission > 0);
+    if (says_ior) material_->ior = std::max(seen.ior, 1.0f);
+  }
+
   void parse_property(std::string_view keyword) {
     if (keyword == "Kd") {
       material_->base_color = glm::vec4(glm::clamp(parse_color("Kd"), 0.0f, 1.0f), 1.0f);
@@ -91,6 +128,16 @@ class MtlParser {
     } else if (keyword == "Pr") {
       material_->roughness = std::clamp(reader_.read_float("Pr"), 0.0f, 1.0f);
       has_roughness_ = true;
+    } else if (keyword == "Pc") {
+      material_->clearcoat = std::clamp(reader_.read_float("Pc"), 0.0f, 1.0f);
+    } else if (keyword == "Pcr") {
+      material_->clearcoat_roughness = std::clamp(reader_.read_float("Pcr"), 0.0f, 1.0f);
+    } else if (keyword == "Ni") {
+      transparency_.ior = reader_.read_float("Ni");
+    } else if (keyword == "Tf") {
+      transparency_.filter = parse_color("Tf");
+    } else if (keyword == "illum") {
+      transparency_.illum = reader_.read_float("illum");
     } else if (keyword == "Pm") {
       material_->metallic = std::clamp(reader_.read_float("Pm"), 0.0f, 1.0f);
     } else if (keyword == "map_Kd") {
@@ -98,7 +145,7 @@ class MtlParser {
     } else if (keyword == "map_Ke") {
       parse_map(material_->emissive_texture);
     } else if (keyword == "d" || keyword == "Tr") {
-      check_opaque(keyword);
+      parse_opacity(keyword);
     } else if (keyword.starts_with("map_") || keyword == "norm" || equal_ignoring_case(keyword, "bump") ||
                keyword == "disp" || keyword == "decal") {
       into_.warn_once(keyword, fmt::format("{}: line {}: {} is not used", reader_.file(), reader_.line(),
@@ -107,13 +154,12 @@ class MtlParser {
   }
 
   // `d opacity`, `d -halo opacity` or `Tr transparency`.
-  void check_opaque(std::string_view keyword) {
+  void parse_opacity(std::string_view keyword) {
     std::string_view word = reader_.word();
     if (word == "-halo") word = reader_.word();
     const float value = reader_.to_float(word, keyword == "d" ? "d" : "Tr");
-    if (keyword == "d" ? value >= 1 : value <= 0) return;
-    into_.warn_once("d", fmt::format("{}: line {}: material {} is transparent, but drawn opaque",
-                                     reader_.file(), reader_.line(), printable(material_->name)));
+    transparency_.opacity = std::clamp(keyword == "d" ? value : 1 - value, 0.0f, 1.0f);
+    if (transparency_.opacity < 1 && transparency_.line == 0) transparency_.line = reader_.line();
   }
 
   // `r g b`, or `r` alone for grey.
@@ -173,6 +219,7 @@ class MtlParser {
   Material* material_ = nullptr;  // the one being described
   Material ignored_;
   bool has_roughness_ = false;  // Pr says more than Ns
+  Transparency transparency_;
 };
 
 ObjMaterials::ObjMaterials(const std::filesystem::path& obj_file)

@@ -49,7 +49,8 @@ def obj_seeds():
         b"vn 0 0 1\nusemtl red\nf 1/1/1 2/2/1 \\\n 3/3/1 4/4/1\nusemtl other\nf -5//-1 -4//-1 -3//-1 5//1 4//1\n"
         b"l 1 2\np 1\nf 1/1 2/2 3/3\n"
         b"newmtl red\nKd 1 0 0\nKe 0 0 2\nNs 100\nPr 0.5\nPm 1\nd 0.5\nmap_d -clamp on mask.png\n"
-        b"map_Kd -s 2 2 1 -o 0.5 -clamp on texture.png\nnewmtl other\nKd spectral file.rfl 1\n")
+        b"map_Kd -s 2 2 1 -o 0.5 -clamp on texture.png\nnewmtl other\nKd spectral file.rfl 1\n"
+        b"Ni 1.3\nTf 1 .5 0\nillum 7\nPc 1\nPcr .5\n")
     yield "colors.obj", b"v 0 0 0 1 0 .5\nv 1 0 0 0 1 0 # green\nv 0 1 0\nf 1 2 3\n"
     yield "crlf.obj", b"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3 # end\r\n"
 
@@ -201,6 +202,25 @@ def gltf_triangle(texture):
     return scene
 
 
+def gltf_layers():
+    """All that the material extensions say, each texture of another kind."""
+    scene = gltf_triangle(True)
+    shifted = {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "texCoord": 0}}}
+    layers = {
+        "KHR_materials_ior": {"ior": 1.25},
+        "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 0],
+                                   "specularTexture": {"index": 0}, "specularColorTexture": {"index": 0}},
+        "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": shifted},
+        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [0, 0.5, 1], "attenuationDistance": 2},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
+                                    "clearcoatTexture": {"index": 0, "texCoord": 1},
+                                    "clearcoatRoughnessTexture": {"index": 0},
+                                    "clearcoatNormalTexture": {"index": 0, "scale": 0.5}}}
+    scene.document["materials"][0]["extensions"] = layers
+    scene.document["extensionsUsed"] = [*layers, "KHR_texture_transform"]
+    return scene
+
+
 def gltf_morph():
     """Two targets, one sparse, with weights animated in all three ways."""
     scene = Gltf()
@@ -264,8 +284,8 @@ def gltf_facets():
 def main():
     beside = pathlib.Path(__file__).resolve().parent / "corpus"
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else beside
-    scenes = [("triangle", gltf_triangle(False)), ("texture", gltf_triangle(True)), ("morph", gltf_morph()),
-              ("skin", gltf_skin()), ("facets", gltf_facets())]
+    scenes = [("triangle", gltf_triangle(False)), ("texture", gltf_triangle(True)), ("layers", gltf_layers()),
+              ("morph", gltf_morph()), ("skin", gltf_skin()), ("facets", gltf_facets())]
     formats = {"ply": ply_seeds(), "obj": obj_seeds(), "stl": stl_seeds(), "height_map": height_map_seeds(),
                "environment": environment_seeds(),
                "gltf": ((f"{name}.gltf", scene.gltf()) for name, scene in scenes),

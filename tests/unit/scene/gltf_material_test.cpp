@@ -30,6 +30,120 @@ TEST(GltfMaterial, HasTheDefaultsOfTheFormat) {
   EXPECT_FALSE(m.alpha_mask);
   EXPECT_FALSE(m.double_sided);
   EXPECT_EQ(m.base_color_texture.image, none);
+  EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.specular, 1);
+  EXPECT_EQ(m.specular_color, glm::vec3(1));
+  EXPECT_EQ(m.transmission, 0);
+  EXPECT_EQ(m.thickness, 0);
+  EXPECT_EQ(m.attenuation_color, glm::vec3(1));
+  EXPECT_EQ(m.attenuation_distance, 0);
+  EXPECT_EQ(m.clearcoat, 0);
+  EXPECT_EQ(m.clearcoat_roughness, 0);
+  EXPECT_EQ(m.clearcoat_normal_scale, 1);
+}
+
+// A material with those extensions and nothing else.
+Material layered(const json& extensions) {
+  GltfBuilder gltf;
+  add_images(gltf);
+  gltf.append("textures", {{"source", 0}});
+  gltf.append("textures", {{"source", 1}});
+  for (const auto& [name, values] : extensions.items()) gltf.root["extensionsRequired"].push_back(name);
+  gltf.append("materials", {{"extensions", extensions}});
+  return gltf.load().materials.at(0);
+}
+
+TEST(GltfMaterial, ReadsTransmissionAndVolume) {
+  const Material m =
+      layered({{"KHR_materials_ior", {{"ior", 1.33}}},
+               {"KHR_materials_transmission",
+                {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 1}, {"texCoord", 1}}}}},
+               {"KHR_materials_volume",
+                {{"thicknessFactor", 2},
+                 {"attenuationColor", {0.5, 0.25, 1}},
+                 {"attenuationDistance", 3},
+                 {"thicknessTexture", {{"index", 0}}}}}});
+  EXPECT_EQ(m.ior, 1.33f);
+  EXPECT_EQ(m.transmission, 0.75f);
+  EXPECT_EQ(m.transmission_texture.image, 1u);
+  EXPECT_EQ(m.transmission_texture.texcoord, 1u);
+  EXPECT_EQ(m.thickness, 2);
+  EXPECT_EQ(m.attenuation_color, glm::vec3(0.5f, 0.25f, 1));
+  EXPECT_EQ(m.attenuation_distance, 3);
+}
+
+TEST(GltfMaterial, ReadsClearcoat) {
+  const json transform = {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}}}};
+  const Material m = layered({{"KHR_materials_clearcoat",
+                               {{"clearcoatFactor", 0.5},
+                                {"clearcoatRoughnessFactor", 0.25},
+                                {"clearcoatTexture", {{"index", 0}, {"extensions", transform}}},
+                                {"clearcoatRoughnessTexture", {{"index", 1}}},
+                                {"clearcoatNormalTexture", {{"index", 1}, {"scale", 0.125}}}}}});
+  EXPECT_EQ(m.clearcoat, 0.5f);
+  EXPECT_EQ(m.clearcoat_roughness, 0.25f);
+  EXPECT_EQ(m.clearcoat_normal_scale, 0.125f);
+  EXPECT_EQ(m.clearcoat_texture.image, 0u);
+  EXPECT_EQ(m.clearcoat_texture.u_row, glm::vec3(1, 0, 0.5f));
+  EXPECT_EQ(m.clearcoat_texture.v_row, glm::vec3(0, 1, 0.25f));
+  EXPECT_EQ(m.clearcoat_roughness_texture.image, 1u);
+  EXPECT_EQ(m.clearcoat_normal_texture.image, 1u);
+}
+
+TEST(GltfMaterial, ReadsSpecular) {
+  const Material m = layered({{"KHR_materials_specular",
+                               {{"specularFactor", 0.5},
+                                {"specularColorFactor", {0.5, 2, 0}},
+                                {"specularTexture", {{"index", 1}}},
+                                {"specularColorTexture", {{"index", 0}}}}}});
+  EXPECT_EQ(m.specular, 0.5f);
+  EXPECT_EQ(m.specular_color, glm::vec3(0.5f, 2, 0)) << "may be more than white";
+  EXPECT_EQ(m.specular_texture.image, 1u);
+  EXPECT_EQ(m.specular_color_texture.image, 0u);
+}
+
+TEST(GltfMaterial, TakesTheNearestNumberThatThereIs) {
+  const Material low =
+      layered({{"KHR_materials_ior", {{"ior", 0.5}}},
+               {"KHR_materials_specular", {{"specularFactor", -1}, {"specularColorFactor", {-1, 0, 0}}}},
+               {"KHR_materials_transmission", {{"transmissionFactor", -1}}},
+               {"KHR_materials_volume",
+                {{"thicknessFactor", -1}, {"attenuationColor", {-1, 2, 0}}, {"attenuationDistance", -1}}},
+               {"KHR_materials_clearcoat", {{"clearcoatFactor", -1}, {"clearcoatRoughnessFactor", -1}}}});
+  EXPECT_EQ(low.ior, 1);
+  EXPECT_EQ(low.specular, 0);
+  EXPECT_EQ(low.specular_color, glm::vec3(0));
+  EXPECT_EQ(low.transmission, 0);
+  EXPECT_EQ(low.thickness, 0);
+  EXPECT_EQ(low.attenuation_color, glm::vec3(0, 1, 0));
+  EXPECT_EQ(low.attenuation_distance, 0);
+  EXPECT_EQ(low.clearcoat, 0);
+  EXPECT_EQ(low.clearcoat_roughness, 0);
+  const Material high =
+      layered({{"KHR_materials_ior", {{"ior", 0}}},
+               {"KHR_materials_specular", {{"specularFactor", 2}}},
+               {"KHR_materials_transmission", {{"transmissionFactor", 2}}},
+               {"KHR_materials_clearcoat", {{"clearcoatFactor", 2}, {"clearcoatRoughnessFactor", 2}}}});
+  EXPECT_EQ(high.ior, 0) << "infinite";
+  EXPECT_EQ(high.specular, 1);
+  EXPECT_EQ(high.transmission, 1);
+  EXPECT_EQ(high.clearcoat, 1);
+  EXPECT_EQ(high.clearcoat_roughness, 1);
+}
+
+TEST(GltfMaterial, ExtensionsWithoutValuesHaveTheirDefaults) {
+  const Material m = layered({{"KHR_materials_ior", json::object()},
+                              {"KHR_materials_specular", json::object()},
+                              {"KHR_materials_transmission", json::object()},
+                              {"KHR_materials_volume", json::object()},
+                              {"KHR_materials_clearcoat", json::object()}});
+  EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.specular, 1);
+  EXPECT_EQ(m.specular_color, glm::vec3(1));
+  EXPECT_EQ(m.transmission, 0);
+  EXPECT_EQ(m.attenuation_color, glm::vec3(1));
+  EXPECT_EQ(m.clearcoat, 0);
+  for (const Texture* texture : m.textures()) EXPECT_EQ(texture->image, none);
 }
 
 TEST(GltfMaterial, ReadsFactorsAndEmissiveStrength) {

@@ -92,6 +92,52 @@ TEST_F(ObjMaterial, RoughnessCountsMoreThanTheExponentInEitherOrder) {
   EXPECT_EQ(material("Pr 0\nNs 6\n").roughness, 0);
 }
 
+TEST_F(ObjMaterial, ClearcoatIsRead) {
+  const Material read = material("Pc 0.5\nPcr 0.25\n");
+  EXPECT_EQ(read.clearcoat, 0.5f);
+  EXPECT_EQ(read.clearcoat_roughness, 0.25f);
+  EXPECT_EQ(material("Pc 2\nPcr -1\n").clearcoat, 1);
+}
+
+// In whatever order the statements come.
+TEST_F(ObjMaterial, ModelsThatLetLightThroughDoByTheirOpacity) {
+  for (const std::string text :
+       {"Kd 0 0 1\nd 0.25\nTf 1 1 0\nillum 9\n", "illum 9\nTf 1 1 0\nd .25\nKd 0 0 1\n",
+        "Tr 0.75\nillum 4\nKd 0 0 1\nTf 1 1 0\n"}) {
+    const Material read = material(text);
+    EXPECT_EQ(read.transmission, 0.75f) << text;
+    EXPECT_EQ(read.thickness, 0) << text;
+    EXPECT_EQ(read.base_color, glm::vec4(0.75f, 0.75f, 0.25f, 1)) << text;
+  }
+}
+
+TEST_F(ObjMaterial, ModelsThatRefractAreClearSolids) {
+  const Material glass = material("illum 7\nKd 0 0 0\nNi 1.75\n");
+  EXPECT_EQ(glass.transmission, 1);
+  EXPECT_EQ(glass.ior, 1.75f);
+  EXPECT_GT(glass.thickness, 0);
+  EXPECT_EQ(glass.base_color, glm::vec4(1)) << "black is what it scatters";
+  EXPECT_EQ(material("illum 6\nd 0.5\n").transmission, 0.5f);
+  EXPECT_EQ(material("illum 6\nNi 1\n").ior, 1) << "invisible, if that is what is asked for";
+}
+
+TEST_F(ObjMaterial, OpaqueModelsStayOpaque) {
+  for (const std::string text : {"illum 2\nd 0.5\n", "d 0.5\n", "illum 4\nTf 1 1 1\n", "illum 9\nd 1\n"})
+    EXPECT_EQ(material(text).transmission, 0) << text;
+  EXPECT_EQ(material("Ni 1.25\n").ior, 1.25f);
+  for (const std::string text : {"Ni 1\n", "Ni 0.001\n", "illum 2\n"})
+    EXPECT_EQ(material(text).ior, 1.5f) << text;
+}
+
+TEST_F(ObjMaterial, WhatOneMaterialSaysIsNotSaidOfTheNext) {
+  folder_.write("m.mtl", "newmtl a\nillum 7\nNi 2\nnewmtl b\nPc 1\nnewmtl c\n");
+  const Scene scene = load_valid(folder_.write("m.obj", model("mtllib m.mtl\n", {"a", "b", "c"})));
+  EXPECT_EQ(scene.materials[0].transmission, 1);
+  EXPECT_EQ(scene.materials[1].transmission, 0);
+  EXPECT_EQ(scene.materials[1].ior, 1.5f);
+  EXPECT_EQ(scene.materials[2].clearcoat, 0);
+}
+
 TEST_F(ObjMaterial, TextureOptionsAreReadInTheirOwnOrientation) {
   write_image("a b.png", 7);
   const Material read = material("map_Kd -blendu on -s 2 4 1 -o 0.5 0.25 -mm 0 1 -clamp on a b.png\n");
@@ -203,8 +249,9 @@ TEST_F(ObjMaterial, ImagesOutsideTheFolderAreNotRead) {
 
 TEST_F(ObjMaterial, MalformedNumbersNameTheLibraryAndItsLine) {
   const std::filesystem::path obj = folder_.write("m.obj", model("mtllib m.mtl\n", {"a"}));
-  for (const std::string broken : {"Kd 1 0", "Kd 1 x 0", "Ke nan 0 0", "Ns", "Pr inf",
-                                   "map_Kd -s x 1 1 t.png", "map_Kd -s 1 3e38 -o 0 3e38 t.png"}) {
+  for (const std::string broken :
+       {"Kd 1 0", "Kd 1 x 0", "Ke nan 0 0", "Ns", "Pr inf", "Pc", "Pcr x", "Ni x", "Tf 1 1", "illum x",
+        "map_Kd -s x 1 1 t.png", "map_Kd -s 1 3e38 -o 0 3e38 t.png"}) {
     const std::filesystem::path library = folder_.write("m.mtl", "newmtl a\n\n" + broken + "\n");
     try {
       load_obj(obj);
