@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/base/hash.h"
 #include "lodestone/geometry_image/atlas.h"
+#include "lodestone/geometry_image/chart_seams.h"
 
 namespace lodestone::geometry_image {
 namespace {
@@ -34,6 +35,7 @@ std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembl
   hash.add_array(assembly.texcoords[0]);
   hash.add_array(assembly.texcoords[1]);
   hash.add_array(assembly.colors);
+  for (const scene::AssemblyPart& part : assembly.parts) hash.add_value(has_texture(scene, part));
   // The rest pose, which decides the order of charts.
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   hash.add_array(scene::frame_weights(scene, assembly, rest));

@@ -62,15 +62,8 @@ class SeamFinder {
       seams[triangle_of(h).w] += is_seam(h, twin) ? 1 : 0;
     }
     for (size_t p = 0; p < seams_count_.size(); ++p) {
-      const uint32_t material = assembly_.parts[p].material;
-      const bool textured = material != scene::none && has_texture(scene.materials[material]);
-      seams_count_[p] = textured || too_often * seams[p] <= edges[p];
+      seams_count_[p] = has_texture(scene, assembly_.parts[p]) || too_often * seams[p] <= edges[p];
     }
-  }
-  static bool has_texture(const scene::Material& m) {
-    const auto textures = m.textures();
-    return std::any_of(textures.begin(), textures.end(),
-                       [](const scene::Texture* t) { return t->image != scene::none; });
   }
 
   // The faces or the normals for shading turn by more than a smooth surface of these triangles would.
@@ -136,6 +129,13 @@ class SeamFinder {
 };
 
 }  // namespace
+
+bool has_texture(const scene::Scene& scene, const scene::AssemblyPart& part) {
+  if (part.material == scene::none) return false;
+  const auto textures = scene.materials[part.material].textures();
+  return std::any_of(textures.begin(), textures.end(),
+                     [](const scene::Texture* t) { return t->image != scene::none; });
+}
 
 void mark_seams(const scene::Scene& scene, const scene::Assembly& assembly,
                 const std::vector<uint32_t>& triangles, HalfEdgeMesh& mesh) {

@@ -12,6 +12,9 @@
 
 namespace lodestone::geometry_image {
 
+// Whether its material has one; if not, changes of texture coordinates may count for nothing.
+bool has_texture(const scene::Scene& scene, const scene::AssemblyPart& part);
+
 // Makes barriers of the seams of a mesh whose face f is triangle `triangles[f]` of the assembly.
 void mark_seams(const scene::Scene& scene, const scene::Assembly& assembly,
                 const std::vector<uint32_t>& triangles, base_complex::HalfEdgeMesh& mesh);

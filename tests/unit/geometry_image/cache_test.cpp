@@ -147,6 +147,16 @@ TEST(AtlasHash, CoversEverythingThatAnAtlasIsComputedFrom) {
   add([](scene::Scene& s) { s.nodes[2].mesh = 0; });
   add([](scene::Scene& s) { s.meshes[1].name = "renamed"; });
   add([](scene::Scene& s) { s.meshes[0].grids.clear(); });
+  const auto with_material = [](scene::Scene& s) {
+    s.images.resize(1);
+    s.materials.resize(1);
+    s.meshes[1].parts = {{0, 3, 0}};
+  };
+  add(with_material);
+  add([&](scene::Scene& s) {
+    with_material(s);
+    s.materials[0].transmission_texture.image = 0;
+  });
   add([](scene::Scene& s) {
     s.nodes[1].skin = 0;
     s.skins.push_back({"skin", {2}, {glm::mat4(1)}});
