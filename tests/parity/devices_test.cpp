@@ -157,6 +157,42 @@ TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
   }
 }
 
+// A coated, a transparent and a plain square, each beside the others in the picture; all textures used.
+TEST_P(Devices, GiveTheBitsOfTheCpuOnLayeredMaterials) {
+  scene::Texture texture;
+  texture.image = 0;
+  scene::Material coat, glass;
+  coat.clearcoat = 0.75f;
+  coat.clearcoat_roughness = 0.5f;
+  coat.emissive = {0.25f, 0.5f, 0.125f};
+  coat.clearcoat_texture = coat.clearcoat_roughness_texture = coat.clearcoat_normal_texture = texture;
+  glass.metallic = 0;
+  glass.ior = 1.75f;
+  glass.specular = 0.5f;
+  glass.specular_color = {1, 0.5f, 2};
+  glass.transmission = 0.75f;
+  glass.specular_texture = glass.specular_color_texture = glass.transmission_texture = texture;
+  std::vector<scene::Mesh> squares = {square(0, 0), square(0.25f, 1), square(-0.25f, 2)};
+  for (uint32_t i = 0; i < 3; ++i) {
+    for (glm::vec3& p : squares[i].positions) p.x = p.x * 0.4f + static_cast<float>(i) * 0.9f - 0.9f;
+  }
+  scene::Scene scene = facing_camera(squares, {coat, glass, {}});
+  scene.sky = scene::Sky{{0.25f, 0.5f, 1}, {1, 1, 1}, {0.5f, 0.25f, 0.125f}};
+  scene::Image image;
+  image.width = image.height = 2;
+  image.rgba = {200, 40, 230, 90, 130, 128, 255, 255, 90, 160, 220, 30, 255, 0, 128, 200};
+  scene.images = {image};
+  scene::Light light;
+  light.intensity = 20;
+  scene.lights = {light};
+  scene::Node lamp;
+  lamp.light = 0;
+  lamp.translation = {0.5f, 1, 2};
+  scene.nodes.push_back(lamp);
+  for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts})
+    expect_equal(ReadyScene(scene, kind), GetParam(), small_settings());
+}
+
 // One bit of what a pass wrote, and nothing else, in the row of that pass.
 TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
   constexpr uint32_t bit = 70;

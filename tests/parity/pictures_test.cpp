@@ -179,6 +179,36 @@ TEST_P(Pictures, HaveTheSameShadowsFarFromTheOrigin) {
   EXPECT_LT(different, dark / 10);
 }
 
+// Whatever is beside it: the left half of the picture is plain, the right half is not always.
+TEST_P(Pictures, OfPlainMaterialsKeepTheirBitsBesideLayeredOnes) {
+  const auto halves = [](const scene::Material& right) {
+    scene::Mesh a = square(0, 0), b = square(0, 1);
+    for (glm::vec3& p : a.positions) p.x = p.x * 0.5f - 0.6f;
+    for (glm::vec3& p : b.positions) p.x = p.x * 0.5f + 0.6f;
+    scene::Material left = colored({0.75f, 0.5f, 0.25f});
+    left.roughness = 0.5f;
+    left.emissive = {0.125f, 0, 0};
+    scene::Scene scene = facing_camera({a, b}, {left, right});
+    scene.sky = scene::Sky{{0.25f, 0.5f, 1}, {1, 1, 1}, {0.5f, 0.25f, 0.125f}};
+    return scene;
+  };
+  scene::Material coat = colored({0.75f, 0.5f, 0.25f}), glass = coat;
+  const image::Image plain = render(halves(coat));
+  coat.clearcoat = 1;
+  glass.transmission = 1;
+  for (const scene::Material& right : {coat, glass}) {
+    const image::Image image = render(halves(right));
+    for (const char* channel : {"R", "G", "B"}) {
+      for (uint32_t y = 0; y < 16; ++y) {
+        for (uint32_t x = 0; x < 8; ++x)
+          ASSERT_EQ(value(image, channel, x, y), value(plain, channel, x, y)) << channel << x << " " << y;
+      }
+      EXPECT_NE(value(image, channel, 11, 8), value(plain, channel, 11, 8)) << channel;
+    }
+    EXPECT_EQ(value(image, "normal.Z", 11, 8), value(plain, "normal.Z", 11, 8));
+  }
+}
+
 TEST_P(Pictures, OfAConvexBodyHaveNoShadowOfItsOwn) {
   for (const float scale : {1e-8f, 1.0f, 1e10f}) {
     scene::Scene scene = square_over_square(0);
