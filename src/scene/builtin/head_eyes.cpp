@@ -4,6 +4,7 @@
 
 #include "lodestone/scene/builtin/head_parts.h"
 #include "lodestone/scene/builtin/surface.h"
+#include "lodestone/scene/builtin/texel.h"
 
 namespace lodestone::scene::builtin {
 namespace {
@@ -42,12 +43,6 @@ glm::vec3 eye_color(float radius, float angle) {
   return glm::mix(color, white, glm::smoothstep(1.0f, 1.06f, r));
 }
 
-uint8_t encoded(float linear) {
-  const float c = glm::clamp(linear, 0.0f, 1.0f);
-  const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-  return uint8_t(255 * s + 0.5f);
-}
-
 }  // namespace
 
 // Around the gaze in the centre, distance the angle from it: half the width is the back of the eye.
@@ -60,7 +55,7 @@ Image iris_image() {
       const glm::vec2 p((float(x) + 0.5f) / float(image.width) * 2 - 1,
                         1 - (float(y) + 0.5f) / float(image.height) * 2);
       const glm::vec3 color = eye_color(glm::length(p) * pi, std::atan2(p.y, p.x));
-      for (int channel = 0; channel < 3; ++channel) image.rgba.push_back(encoded(color[channel]));
+      for (int channel = 0; channel < 3; ++channel) image.rgba.push_back(color_texel(color[channel]));
       image.rgba.push_back(255);
     }
   return image;

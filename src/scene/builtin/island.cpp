@@ -10,43 +10,18 @@ namespace lodestone::scene::builtin {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr float sea_level = -2.6f;
 constexpr float shore_radius = 82;  // roughly
 
 constexpr int ground_charts = 3, chart_cells = 32;
 constexpr int ground_cells = ground_charts * chart_cells;
-constexpr float ground_half_width = 112;
 
 constexpr uint32_t sea_charts = 8, sea_columns = 16, sea_rows = 32;  // quads of a chart around and outwards
 constexpr float sea_inner = 56, sea_outer = 800;
 
-float fractal(glm::vec2 p, float frequency, uint32_t octaves) {
-  float sum = 0, amplitude = 1;
-  for (uint32_t octave = 0; octave < octaves; ++octave) {
-    sum += amplitude * (2 * value_noise(p.x * frequency, p.y * frequency, octave) - 1);
-    amplitude *= 0.5f;
-    frequency *= 2.1f;
-  }
-  return sum;
-}
-
-// A coordinate from -1 to 1, so that samples are denser in the middle of the island.
+// The coordinate of a column or row: samples are denser in the middle of the island.
 float spread(int sample) {
   const float s = 2 * float(sample) / ground_cells - 1;
-  return ground_half_width * (0.35f * s + 0.65f * s * s * s);
-}
-
-glm::vec4 ground_color(glm::vec3 p, float slope) {
-  const glm::vec3 wet(0.30f, 0.23f, 0.14f), sand(0.68f, 0.56f, 0.36f), grass(0.15f, 0.24f, 0.055f);
-  const glm::vec2 place(p.x, p.z);
-  const float above = p.y - sea_level;
-  glm::vec3 color = glm::mix(wet, sand, glm::smoothstep(0.1f, 0.9f, above));
-  const float grown = fractal(place, 0.045f, 3) + 0.5f * fractal(place + 40.0f, 0.3f, 2);
-  const float meadow = glm::smoothstep(1.9f, 3.2f, above + 0.5f * grown) *
-                       glm::smoothstep(-0.35f, 0.25f, grown - 3 * slope) *
-                       glm::smoothstep(plateau_radius, 1.8f * plateau_radius, glm::length(place));
-  color = glm::mix(color, grass * (1 + 0.35f * fractal(place, 0.4f, 2)), meadow);
-  return glm::vec4(color * (1 + 0.08f * fractal(place, 0.9f, 2)), 1);
+  return ground_half_width * (0.5f * s + 0.5f * s * s * s);
 }
 
 glm::vec3 sea_point(uint32_t column, uint32_t row) {
@@ -55,15 +30,15 @@ glm::vec3 sea_point(uint32_t column, uint32_t row) {
   const float turn = 2 * pi * float(column % (sea_charts * sea_columns)) / (sea_charts * sea_columns);
   const glm::vec2 p = radius * glm::vec2(std::cos(turn), std::sin(turn));
   // A swell that dies away where samples get too far apart for it.
-  const float swell = fractal(p, 0.055f, 2) * 0.30f * (1 - glm::smoothstep(120.0f, 320.0f, radius));
+  const float swell = fractal_noise(p, 0.055f, 2) * 0.30f * (1 - glm::smoothstep(120.0f, 320.0f, radius));
   return {p.x, sea_level + swell, p.y};
 }
 
 glm::vec4 sea_color(glm::vec3 p) {
   const glm::vec3 shallow(0.06f, 0.36f, 0.34f), deep(0.006f, 0.055f, 0.13f);
   const float depth = sea_level - island_height({p.x, p.z});
-  const float far =
-      glm::smoothstep(90.0f, 200.0f, glm::length(glm::vec2(p.x, p.z)) + 20 * fractal({p.x, p.z}, 0.02f, 2));
+  const float far = glm::smoothstep(
+      90.0f, 200.0f, glm::length(glm::vec2(p.x, p.z)) + 20 * fractal_noise({p.x, p.z}, 0.02f, 2));
   return glm::vec4(glm::mix(shallow, deep, std::max(far, 0.5f * glm::smoothstep(1.0f, 6.0f, depth))), 1);
 }
 
@@ -71,12 +46,14 @@ glm::vec4 sea_color(glm::vec3 p) {
 
 float island_height(glm::vec2 place) {
   const float radius = glm::length(place);
-  // A shore with bays, and hills that leave the middle alone.
-  const float shore = shore_radius + 14 * fractal(place, 0.022f, 2);
-  const float slope = glm::smoothstep(shore + 26, shore - 26, radius);
-  const float hills =
-      (1.3f * fractal(place, 0.05f, 3) + 1.2f) * glm::smoothstep(1.0f, 3.0f, radius / plateau_radius);
-  return (sea_level - 4) * (1 - slope) + slope * hills * glm::smoothstep(0.4f, 1.0f, slope);
+  // A shore with bays; the bed of the lagoon is 4 deep.
+  const float shore = shore_radius + 14 * fractal_noise(place, 0.022f, 2);
+  const float land = 1 - glm::smoothstep(shore - 26, shore + 26, radius);
+  // Hills leave the middle alone and end before the beach.
+  const float hills = (1.2f + 1.3f * fractal_noise(place, 0.05f, 3)) *
+                      glm::smoothstep(plateau_radius, 3 * plateau_radius, radius) *
+                      glm::smoothstep(0.4f, 1.0f, land);
+  return (sea_level - 4) * (1 - land) + hills * land;
 }
 
 Mesh island_ground(uint32_t material) {
@@ -87,6 +64,7 @@ Mesh island_ground(uint32_t material) {
     for (int x = 0; x <= ground_cells; ++x) {
       const glm::vec2 place(spread(x), -spread(y));
       mesh.positions.push_back(snap(glm::vec3(place.x, island_height(place), place.y)));
+      mesh.texcoords[0].push_back(snap(0.5f + 0.5f * place / ground_half_width));
     }
   for (int chart = 0; chart < ground_charts * ground_charts; ++chart) {
     Grid grid{chart_cells + 1, chart_cells + 1, 0, {}};
@@ -99,8 +77,6 @@ Mesh island_ground(uint32_t material) {
   }
   add_part(mesh, 0, material);
   mesh.normals = snapped_normals(mesh, mesh.positions);
-  for (size_t v = 0; v < mesh.positions.size(); ++v)
-    mesh.colors.push_back(ground_color(mesh.positions[v], 1 - mesh.normals[v].y));
   return mesh;
 }
 

@@ -26,4 +26,16 @@ inline float value_noise(float x, float y, uint32_t octave) {
   return glm::mix(low, high, sy);
 }
 
+// Octaves of value noise around 0, each half as strong and 2.1 times as fine as the one before: the first
+// from -1 to 1, its lattice 1 / frequency wide.
+inline float fractal_noise(glm::vec2 p, float frequency, uint32_t octaves) {
+  float sum = 0, amplitude = 1;
+  for (uint32_t octave = 0; octave < octaves; ++octave) {
+    sum += amplitude * (2 * value_noise(p.x * frequency, p.y * frequency, octave) - 1);
+    amplitude *= 0.5f;
+    frequency *= 2.1f;
+  }
+  return sum;
+}
+
 }  // namespace lodestone::scene::builtin

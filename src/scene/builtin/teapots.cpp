@@ -17,7 +17,7 @@ constexpr float pi = 3.14159265f;
 
 struct Palm {
   glm::vec2 place;
-  float turn, size;  // radians; of 1
+  float turn, size;  // radians about +Y; 1: as palm() makes it
   uint32_t kind;
 };
 
@@ -40,9 +40,8 @@ glm::quat turned(float angle) {
 
 void add_palms(Scene& scene, uint32_t material) {
   const uint32_t first = uint32_t(scene.meshes.size());
-  for (uint32_t kind = 0; kind < 2; ++kind) {
+  for (uint32_t kind = 0; kind < 2; ++kind)
     scene.meshes.push_back(palm("palm" + std::to_string(kind + 1), kind, material));
-  }
   for (size_t k = 0; k < palms.size(); ++k) {
     Node node;
     node.name = "palm" + std::to_string(k + 1);
@@ -73,10 +72,10 @@ struct Pot {
   glm::vec3 color;
   float roughness, metallic;
   glm::vec2 place;
-  float turn, direction;
+  float turn, direction;  // radians about +Y at rest; of the clip, +1 or -1
 };
 
-// A circle that a teapot touches when it turns has a radius of 3.525: none comes near another.
+// A mirror, brushed metal and glazed pottery, each within 3.5 of its place however it turns.
 constexpr std::array<Pot, 3> pots = {{{"chrome", {0.78f, 0.79f, 0.80f}, 0.02f, 1, {-3.9f, 2.2f}, 0.45f, 1},
                                       {"copper", {0.90f, 0.50f, 0.32f}, 0.25f, 1, {4.0f, 2.0f}, 2.7f, -1},
                                       {"glaze", {0.05f, 0.16f, 0.42f}, 0.10f, 0, {0.1f, -4.6f}, -0.5f, 1}}};
@@ -96,6 +95,7 @@ void add_teapots(Scene& scene) {
   scene.animations.push_back(std::move(animation));
 }
 
+// Everything; the teapots; and the mirror's handle, in which distant palms are to be seen.
 void add_cameras(Scene& scene) {
   Camera camera;
   camera.name = "teapots";
@@ -105,8 +105,8 @@ void add_cameras(Scene& scene) {
   camera.yfov = 0.75f;
   add_camera(scene, camera, {52, 50, 150}, {0, -6, 0});
   camera.name = "handle";
-  camera.yfov = 0.42f;
-  add_camera(scene, camera, {-9.4f, 2.7f, 6.0f}, {-5.9f, 1.65f, 3.0f});
+  camera.yfov = 0.5f;
+  add_camera(scene, camera, {-8.9f, 2.2f, 5.5f}, {-6.1f, 1.75f, 3.2f});
 }
 
 }  // namespace
@@ -114,7 +114,9 @@ void add_cameras(Scene& scene) {
 Scene make_teapots() {
   Scene scene;
   add_teapots(scene);
+  scene.images.push_back(island_picture());
   const uint32_t ground = add_material(scene, "ground", glm::vec3(1), 0.95f);
+  scene.materials[ground].base_color_texture.image = 0;
   const uint32_t sea = add_material(scene, "sea", glm::vec3(1), 0.12f);
   const uint32_t leaf = add_material(scene, "palm", glm::vec3(1), 0.55f);
   scene.materials[leaf].double_sided = true;

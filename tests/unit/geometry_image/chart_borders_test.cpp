@@ -94,7 +94,7 @@ TEST_P(BuiltinBorders, FitToTheBit) {
     expect_tight_in_many_poses(scene, kind);
 }
 
-INSTANTIATE_TEST_SUITE_P(ChartBorders, BuiltinBorders, testing::Values("head", "spheres", "tiny"));
+INSTANTIATE_TEST_SUITE_P(ChartBorders, BuiltinBorders, testing::Values("head", "spheres", "teapots", "tiny"));
 
 // Real meshes are not part of the repository: LODESTONE_DATA names their folder.
 class FileBorders : public testing::TestWithParam<const char*> {};
