@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/builtin/island.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lodestone/scene/builtin/noise.h"

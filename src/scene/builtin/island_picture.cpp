@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sand, wet where the sea reaches it and rippled by the wind, and meadows: finer than the vertices of the
 // ground.
+#include <algorithm>
 #include <cmath>
 
 #include "lodestone/base/parallel.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A coconut palm: a ringed trunk, leaves with a fringe, and a few nuts.
+#include <algorithm>
 #include <cmath>
 
 #include "lodestone/scene/builtin/island.h"
@@ -60,7 +61,7 @@ void add_leaf(Mesh& mesh, glm::vec3 root, float azimuth, float elevation, float 
     // Bent by its weight, more and more.
     const float angle = elevation - 1.9f * along * along - 0.35f * along;
     const glm::vec3 forward = std::cos(angle) * out + std::sin(angle) * up;
-    const glm::vec3 over = glm::cross(side, forward) * -1.0f;
+    const glm::vec3 over = glm::cross(forward, side);
     const float fullness = std::sqrt(std::min(6 * along, 1.0f)) * std::pow(1 - along, 0.7f);
     const bool tip = row % 2 == 0;
     const float width = 0.05f + (tip ? 2.3f : 0.7f) * fullness;

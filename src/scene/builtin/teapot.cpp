@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/builtin/teapot.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
@@ -12,8 +13,8 @@ namespace lodestone::scene::builtin {
 namespace {
 
 constexpr uint32_t cells_across = 16;  // quads along the columns of a patch
-constexpr int cap_cells = 16;  // quads along a side of a cap: as many around it as around the four patches
-static_assert(cap_cells == int(cells_across));
+// Along a side of a cap: as many around it as around four patches.
+constexpr int cap_cells = int(cells_across);
 
 // Vertices of one sheet: samples at the same place are one, so that charts share their borders.
 class Vertices {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/builtin/teapot_patches.h"
 
+#include <algorithm>
 #include <span>
 
 namespace lodestone::scene::builtin {
