@@ -18,7 +18,7 @@ struct Bsdf {
   vec3 normal;
   vec3 coat_normal;
   vec3 view;         // to the viewer, unit length
-  vec3 diffuse;      // albedo of the diffuse lobe
+  vec3 diffuse;      // albedo of the diffuse lobe, of all the light that arrives
   vec3 specular;     // reflectance at normal incidence ...
   vec1 grazing;      // ... and at grazing angles
   vec3 transmitted;  // what a lobe through the surface lets through of what is not reflected
@@ -56,10 +56,12 @@ FN Bsdf with_chances(Bsdf b) {
   if (b.layered) coat = b.coat * coat_fresnel(saturate(dot3(b.coat_normal, b.view)));
   b.base = 1.0f - coat;
   vec1 reflected_share = luminance(interface_fresnel(b, saturate(dot3(b.normal, b.view))));
+  // Facets of a rough surface let light through where its middle would not.
+  reflected_share = select(b.alpha < smallest_alpha, reflected_share, min2(reflected_share, 0.9f));
   vec1 specular = b.base * reflected_share;
   vec1 through = b.base * (1.0f - reflected_share);
   vec1 transmitted = through * luminance(b.transmitted);
-  vec1 sum = coat + specular + transmitted + through * luminance(b.diffuse);
+  vec1 sum = coat + specular + transmitted + b.base * luminance(b.diffuse);
   vec1 scale = select(sum > 1e-6f, 1.0f / sum, vec1(0.0f));
   b.chance_coat = coat * scale;
   b.chance_specular = specular * scale;
@@ -88,7 +90,9 @@ FN Bsdf surface_bsdf(IN(Surface) s, bool layered) {
   b.geometric = s.geometric;
   b.view = s.view;
   b.normal = visible_normal(s, s.normal);
-  b.diffuse = diffuse_color(s);
+  // What the mirror lobe reflects in all directions does not reach the diffuse one. (glTF's factor, 1 minus
+  // Fresnel by the half vector, would give more light back than there is, at grazing angles nearly twice.)
+  b.diffuse = diffuse_color(s) * max3(vec3(1.0f, 1.0f, 1.0f) - sky_specular(s), vec3(0.0f, 0.0f, 0.0f));
   b.specular = specular_color(s);
   b.grazing = grazing_reflectance(s);
   b.transmitted = s.albedo * ((1.0f - s.metallic) * s.transmission);
@@ -197,8 +201,7 @@ FN BsdfValue bsdf_value(IN(Bsdf) b, vec3 direction) {
   vec1 chance_diffuse = 1.0f - b.chance_coat - b.chance_specular - b.chance_transmitted;
   vec1 cosine = max2(n_l, 0.0f) * (1.0f / pi);
   vec1 specular_density = select(rough, specular.density, vec1(0.0f));
-  vec3 value = b.diffuse * (one - fresnel) * (cosine * b.base) +
-               fresnel * (specular_density * specular.unmasked * b.base);
+  vec3 value = b.diffuse * (cosine * b.base) + fresnel * (specular_density * specular.unmasked * b.base);
   vec1 density = chance_diffuse * cosine + b.chance_specular * specular_density;
 
   vec3 through = zero;

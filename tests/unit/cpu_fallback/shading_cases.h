@@ -49,9 +49,9 @@ FN Surface shading_case(uvec1 i) {
   s.clearcoat = case_share(d.y);
   s.clearcoat_roughness = case_share(a.y);
   s.ior = 1.5f;
-  s.solid = false;
-  s.inside = false;
-  s.attenuation = vec3(0.0f, 0.0f, 0.0f);
+  s.solid = a.x > 0.5f;
+  s.inside = b.x > 0.5f;
+  s.attenuation = vec3(c.x, c.y, d.x);
   return s;
 }
 

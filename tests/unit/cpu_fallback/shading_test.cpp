@@ -32,12 +32,11 @@ namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 // Red, green and blue of the light sent and of the surface's own, `count` words each; a multiple of every
 // vector's lanes.
-HWY_ATTR void shade_cases(const LightRecord& light, const FrameRecord& frame, uint32_t count,
-                          uint32_t* results) {
+HWY_ATTR void shade_cases(const LightRecord& light, uint32_t count, uint32_t* results) {
   for (uint32_t i = 0; i < count; i += lane_count) {
     const uvec1 index = hn::Iota(Unsigneds(), i);
     const Surface s = shading_case(index);
-    const vec3 sent = sample_light(light, frame, s, case_pair(index, 14u)).radiance;
+    const vec3 sent = sample_light(light, s, nothing_traced()).radiance;
     const vec3 emitted = emitted_radiance(s);
     uint32_t* to = results + i;
     for (const vec1 value : {sent.x, sent.y, sent.z, emitted.x, emitted.y, emitted.z}) {
@@ -56,31 +55,24 @@ namespace {
 
 HWY_EXPORT(shade_cases);
 
-layout::FrameRecord sky_frame() {
-  layout::FrameRecord frame{};
-  frame.sky_top = {0.25f, 0.5f, 1};
-  frame.sky_horizon = {1, 1, 1};
-  frame.sky_bottom = {0.5f, 0.25f, 0.125f};
-  return frame;
-}
-
 TEST(Shading, IsThatOfScalarCodeAtEveryWidth) {
   constexpr uint32_t count = 1 << 12;
-  const layout::FrameRecord frame = sky_frame();
   layout::LightRecord light{};
   light.position = {0.5f, 2, 1};
   light.direction = {0, -1, 0};
   light.color = {3, 2, 1};
-  for (const uint32_t kind : {layout::light_directional, layout::light_point, layout::light_sky}) {
+  light.cone_scale = 2;
+  light.cone_offset = -0.5f;
+  for (const uint32_t kind : {layout::light_directional, layout::light_point, layout::light_spot}) {
     light.kind = kind;
     int widths = 0;
     for (int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
       hwy::SetSupportedTargetsForTest(rest & -rest);
       std::vector<uint32_t> results(6 * count);
-      HWY_DYNAMIC_DISPATCH(shade_cases)(light, frame, count, results.data());
+      HWY_DYNAMIC_DISPATCH(shade_cases)(light, count, results.data());
       for (uint32_t i = 0; i < count; ++i) {
         const layout::Surface s = layout::shading_case(i);
-        const glm::vec3 sent = layout::sample_light(light, frame, s, layout::case_pair(i, 14)).radiance;
+        const glm::vec3 sent = layout::sample_light(light, s, layout::nothing_traced()).radiance;
         const glm::vec3 emitted = layout::emitted_radiance(s);
         for (uint32_t c = 0; c < 3; ++c) {
           const auto channel = static_cast<glm::length_t>(c);
@@ -117,7 +109,7 @@ double reflectance(const layout::Surface& s) {
     for (int spoke = 0; spoke < spokes; ++spoke) {
       const double turn = 2 * M_PI * (spoke + 0.5) / spokes;
       const glm::vec3 to_light(radius * std::cos(turn), radius * std::sin(turn), z);
-      sum += double(layout::reflected(s, to_light).y);
+      sum += double(layout::reflected(s, to_light, layout::nothing_traced()).y);
     }
   }
   return sum * 2 * M_PI / (rings * spokes);
@@ -148,14 +140,14 @@ TEST(Shading, ACoatShinesOverBlackAndDimsWhatIsBelow) {
   s.f0 = {0, 0, 0};
   s.f90 = 0;
   s.emission = {1, 2, 4};
-  EXPECT_EQ(layout::reflected(s, mirrored).x, 0);
+  EXPECT_EQ(layout::reflected(s, mirrored, layout::nothing_traced()).x, 0);
   EXPECT_EQ(layout::emitted_radiance(s), s.emission);
   s.clearcoat = 1;
   s.clearcoat_roughness = 0.3f;
-  EXPECT_GT(layout::reflected(s, mirrored).x, 0.04f);
+  EXPECT_GT(layout::reflected(s, mirrored, layout::nothing_traced()).x, 0.04f);
   EXPECT_NEAR(layout::emitted_radiance(s).y, 2 * 0.96f, 1e-3f);
   s.clearcoat_normal = {1, 0, 0};  // away from the light
-  EXPECT_EQ(layout::reflected(s, mirrored).x, 0);
+  EXPECT_EQ(layout::reflected(s, mirrored, layout::nothing_traced()).x, 0);
 }
 
 TEST(Shading, WhatPassesThroughIsNotScatteredBack) {
