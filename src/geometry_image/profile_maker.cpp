@@ -21,7 +21,8 @@ ProfileMaker::ProfileMaker(const base_complex::BaseComplex& complex, uint64_t te
     : complex_(complex) {
   double area = 0;
   for (const Cell& cell : complex.cells) area += cell.area;
-  spacing_ = std::sqrt(area / double(texel_budget));
+  const double spacing = std::sqrt(area / double(texel_budget));
+  spacing_ = spacing > 0 ? spacing : 1;  // of what is one point any will do
 }
 
 ChartProfile ProfileMaker::make(uint32_t cell, std::vector<base_complex::TriangleShape> shapes) const {
