@@ -59,7 +59,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
   HWY_ATTR void follow_drawn(const Surface& surface, const Bsdf& bsdf, Branch branch) {
     const auto draw = [&](uint use) HWY_ATTR { return this->draw(push_, vertex_pair(push_.vertex, use)); };
     const BsdfSample drawn = sample_bsdf(without_diffuse(bsdf), draw(of_lobe).x, draw(of_direction));
-    branch.throughput = branch.throughput * drawn.weight;
+    branch.throughput = flush_lost3(branch.throughput * drawn.weight);
     const bvec1 carries = this->active() && !(max_component(branch.throughput) < smallest_throughput);
     const vec1 side = select(drawn.through, -1.0f, 1.0f);
     next_ = select(carries, leaving_ray(surface, drawn.direction, side, 1e30f), next_);
@@ -68,8 +68,8 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
 
   HWY_ATTR void follow_mirrored(const Surface& surface, const Bsdf& bsdf, Branch branch) {
     const MirrorRays two = mirror_rays(bsdf, surface);
-    const vec3 mirrored = branch.throughput * two.mirrored_weight,
-               passed = branch.throughput * two.passed_weight;
+    const vec3 mirrored = flush_lost3(branch.throughput * two.mirrored_weight),
+               passed = flush_lost3(branch.throughput * two.passed_weight);
     const bvec1 mirrors = !(max_component(mirrored) < smallest_throughput),
                 passes = !(max_component(passed) < smallest_throughput);
     const Ray through = leaving_ray(surface, two.passed, -1.0f, 1e30f);

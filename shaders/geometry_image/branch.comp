@@ -50,13 +50,13 @@ void main() {
       vec2 choice = sample_2d(frame.seed, pixel, push.sample_index, vertex_pair(push.vertex, of_lobe));
       vec2 xi = sample_2d(frame.seed, pixel, push.sample_index, vertex_pair(push.vertex, of_direction));
       BsdfSample drawn = sample_bsdf(without_diffuse(bsdf), choice.x, xi);
-      branch.throughput = branch.throughput * drawn.weight;
+      branch.throughput = flush_lost3(branch.throughput * drawn.weight);
       if (!(max_component(branch.throughput) < smallest_throughput))
         next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
     } else {
       MirrorRays two = mirror_rays(bsdf, surface);
-      vec3 mirrored = branch.throughput * two.mirrored_weight;
-      vec3 passed = branch.throughput * two.passed_weight;
+      vec3 mirrored = flush_lost3(branch.throughput * two.mirrored_weight);
+      vec3 passed = flush_lost3(branch.throughput * two.passed_weight);
       bool mirrors = !(max_component(mirrored) < smallest_throughput);
       bool passes = !(max_component(passed) < smallest_throughput);
       Ray through = leaving_ray(surface, two.passed, -1.0, 1e30);

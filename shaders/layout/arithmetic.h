@@ -63,9 +63,13 @@ FN vec1 flush_lost(vec1 x) {
   return select(abs1(x) < 1e-30f, 0.0f, x);
 }
 
+FN vec3 flush_lost3(vec3 v) {
+  return vec3(flush_lost(v.x), flush_lost(v.y), flush_lost(v.z));
+}
+
 // v / |v|; `fallback` where v is too short to have a direction.
 FN vec3 normalize_or(vec3 v, vec3 fallback) {
-  v = vec3(flush_lost(v.x), flush_lost(v.y), flush_lost(v.z));
+  v = flush_lost3(v);
   vec1 scale = largest_abs(v);
   vec3 s = vec3(v.x / scale, v.y / scale, v.z / scale);
   vec1 length = sqrt(dot3(s, s));

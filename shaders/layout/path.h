@@ -46,8 +46,7 @@ struct DrawnLight {
 FN vec3 direct_light(IN(Path) path, IN(Bsdf) b, IN(DrawnLight) light) {
   BsdfValue f = bsdf_value(b, light.direction);
   vec1 weight = select(light.density > 0.0f, power_heuristic(light.density, f.density), vec1(1.0f));
-  vec3 sum = path.throughput * f.value * light.radiance * weight;
-  return vec3(flush_lost(sum.x), flush_lost(sum.y), flush_lost(sum.z));
+  return flush_lost3(path.throughput * f.value * light.radiance * weight);
 }
 
 // How much of what a path's ray met at the sky counts, which lights drew with `density`.
@@ -59,9 +58,7 @@ FN vec1 sky_weight(IN(Path) path, vec1 density) {
 FN Path survived(Path path, uint vertex, vec1 xi) {
   vec1 chance = vertex < 3u ? vec1(1.0f) : min2(max_component(path.throughput), 0.95f);
   vec3 kept = path.throughput / max2(chance, 1e-6f);
-  path.throughput = select(xi < chance, kept, vec3(0.0f, 0.0f, 0.0f));
-  path.throughput = vec3(flush_lost(path.throughput.x), flush_lost(path.throughput.y),
-                         flush_lost(path.throughput.z));
+  path.throughput = flush_lost3(select(xi < chance, kept, vec3(0.0f, 0.0f, 0.0f)));
   return path;
 }
 

@@ -158,7 +158,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
 }
 
 // A coated, a transparent and a plain square, each beside the others in the picture; all textures used.
-TEST_P(Devices, GiveTheBitsOfTheCpuOnLayeredMaterials) {
+scene::Scene layered_squares() {
   scene::Texture texture;
   texture.image = 0;
   scene::Material coat, glass;
@@ -189,8 +189,33 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnLayeredMaterials) {
   lamp.light = 0;
   lamp.translation = {0.5f, 1, 2};
   scene.nodes.push_back(lamp);
+  return scene;
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuOnLayeredMaterials) {
   for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts})
-    expect_equal(ReadyScene(scene, kind), GetParam(), small_settings());
+    expect_equal(ReadyScene(layered_squares(), kind), GetParam(), small_settings());
+}
+
+// Glass, coats and mirrors, lit by lamps, a sky and a map, through cut-out layers, and out of focus.
+TEST_P(Devices, GiveTheBitsOfTheCpuWithEveryIntegrator) {
+  using enum render::Integrator;
+  scene::Scene squares = layered_squares();
+  squares.materials[1].thickness = 1;
+  squares.materials[1].attenuation_distance = 0.5f;
+  squares.materials[1].attenuation_color = {0.25f, 0.5f, 0.75f};
+  ReadyScene layers(squares, geometry_image::AtlasKind::charts), spheres("builtin:spheres");
+  spheres.scene.environment = sunny_environment(33, 17, 2);
+  const ReadyScene masked = masked_scene(geometry_image::AtlasKind::exact);
+  for (const auto integrator : {dof, ao, specular, glossy, path}) {
+    SCOPED_TRACE(render::to_string(integrator));
+    render::Settings settings = small_settings();
+    settings.integrator = integrator;
+    settings.max_bounces = 4;
+    settings.lens_radius = 0.05f;
+    for (const ReadyScene* ready : std::initializer_list<const ReadyScene*>{&layers, &spheres, &masked})
+      expect_equal(differences(*ready, open_validated(GetParam()), 0.6f, settings));
+  }
 }
 
 // One bit of what a pass wrote, and nothing else, in the row of that pass.
