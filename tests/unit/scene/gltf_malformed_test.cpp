@@ -399,7 +399,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"CoatTextureNumber",
          {{material_extensions, R"({"KHR_materials_clearcoat": {"clearcoatTexture": 0}})"}}},
         {"CoatTextureWithoutIndex",
-         {{material_extensions, R"({"KHR_materials_clearcoat": {"clearcoatTexture": {}}})"}}},
+         {{material_extensions, R"({"KHR_materials_clearcoat": {"clearcoatTexture": {"texCoord": 0}}})"}}},
         {"CoatTextureWrapped",
          {{material_extensions,
            R"({"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 4294967296}}})"}}},
