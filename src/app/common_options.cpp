@@ -279,8 +279,8 @@ void add_integrator_options(CLI::App& app, PictureOptions& options) {
               options.lens_radius = float(parse_number("--lens-radius", text, 1e-9, 1e9));
             });
   add_value(app, "--focus-distance", "X",
-            "How far along the view direction things are sharp (default: what is nearest to the picture's "
-            "middle)",
+            "How far along the view direction things are sharp (default: where the nearest thing in the "
+            "picture's middle is)",
             [&](const std::string& text) {
               options.focus_distance = float(parse_number("--focus-distance", text, 1e-9, 1e9));
             });

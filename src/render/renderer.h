@@ -39,7 +39,7 @@ struct Settings {
   uint32_t max_bounces = 8;   // surfaces that a ray goes on from, where rays do
   float ao_distance = 1e30f;  // beyond which nothing occludes
   float lens_radius = 0;      // scene units; 0: all is sharp, but with `dof`, which takes a 40th of the focus
-  float focus_distance = 0;   // along the view direction; 0: to what is nearest to the picture's middle
+  float focus_distance = 0;   // along the view direction; 0: to what is nearest in the picture's middle
   Traversal traversal = Traversal::automatic;
   ViewTransform view = ViewTransform::filmic;
   float exposure = 0;             // stops
