@@ -177,7 +177,9 @@ TEST_F(EnvironmentFile, CutShortIsRefusedOrLoads) {
       SCOPED_TRACE(name + " at " + std::to_string(length));
       const bool loaded = loads(rewrite(name, std::span(whole).first(length)));
       // Half of a picture is none.
-      if (length < whole.size() / 2) EXPECT_FALSE(loaded);
+      if (length < whole.size() / 2) {
+        EXPECT_FALSE(loaded);
+      }
     }
   }
 }
