@@ -43,7 +43,7 @@ TEST_F(Parity, KnowsWhichPassesCanBeBroken) {
   const Result result =
       run({"parity", "builtin:tiny", "--device", "gpu", "--size", "16x16", "--fault", "blur:1"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("there is links, blend"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("there is blend, rasterise, bounds"), std::string::npos) << result.err;
 }
 
 TEST_F(Parity, QuietLeavesTheExitCode) {
