@@ -20,8 +20,8 @@ class Camera : public VaryingKernel<Probe> {
 
   HWY_ATTR void operator()() {
     const uvec1 index = this->own_index();
-    const Ray ray = camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered,
-                               push_.pinhole);
+    const Ray ray =
+        camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered, push_.pinhole);
     this->store_own(rays_, as_bits(ray.origin, floatBitsToUint(ray.tmin)), 2);
     this->store_own(rays_, as_bits(ray.direction, floatBitsToUint(ray.tmax)), 2, 1);
   }
