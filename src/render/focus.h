@@ -13,8 +13,8 @@ namespace lodestone::render {
 // takes them.
 std::vector<glm::vec4> focus_rays(const View& view);
 
-// The distance along the view direction to the nearest of `hits` (t u v primitive) in the middle ninth, else of
-// all; where nothing is met one at which all that is far is sharp.
+// The distance along the view direction to the nearest of `hits` (t u v primitive) in the middle ninth, else
+// of all; where nothing is met one at which all that is far is sharp.
 float focus_of(const View& view, const std::vector<glm::vec4>& rays, const std::vector<glm::uvec4>& hits);
 
 }  // namespace lodestone::render

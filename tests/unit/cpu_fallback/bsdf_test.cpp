@@ -13,6 +13,7 @@
 #include "lodestone/layout/recursion.h"
 
 #include "shading_cases.h"
+#include "white_surface.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bsdf_test.cpp"
@@ -100,18 +101,6 @@ TEST(BsdfBits, AreThoseOfScalarCodeAtEveryWidth) {
     hwy::SetSupportedTargetsForTest(0);
     EXPECT_GE(widths, 2);
   }
-}
-
-// White, seen at `angle` from its normal.
-layout::Surface white_surface(float angle) {
-  layout::Surface s{};
-  s.geometric = s.normal = {0, 0, 1};
-  s.view = {std::sin(angle), 0, std::cos(angle)};
-  s.albedo = {1, 1, 1};
-  s.roughness = 0.5f;
-  s.occlusion = 1;
-  layout::make_plain(s);
-  return s;
 }
 
 struct Kind {

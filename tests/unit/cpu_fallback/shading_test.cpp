@@ -12,6 +12,7 @@
 #include "lodestone/layout/ray_state.h"
 
 #include "shading_cases.h"
+#include "white_surface.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading_test.cpp"
@@ -86,18 +87,6 @@ TEST(Shading, IsThatOfScalarCodeAtEveryWidth) {
     hwy::SetSupportedTargetsForTest(0);
     EXPECT_GE(widths, 2);
   }
-}
-
-// White, seen at `angle` from its normal.
-layout::Surface white_surface(float angle) {
-  layout::Surface s{};
-  s.geometric = s.normal = {0, 0, 1};
-  s.view = {std::sin(angle), 0, std::cos(angle)};
-  s.albedo = {1, 1, 1};
-  s.roughness = 0.5f;
-  s.occlusion = 1;
-  layout::make_plain(s);
-  return s;
 }
 
 // The share of white light from everywhere that is sent to the viewer.
