@@ -227,7 +227,7 @@ std::vector<glm::uvec4> looked_around(test::EnvironmentProbe& probe, const std::
   CpuDispatch dispatch;
   dispatch.buffers = buffers;
   dispatch.invocations = static_cast<uint32_t>(pairs.size());
-  dispatch.constants[1] = probe.environment_map;
+  dispatch.constants[2] = probe.environment_map;
   HWY_DYNAMIC_DISPATCH(look_around)(dispatch);
   return results;
 }
