@@ -11,6 +11,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/memory.h"
 #include "lodestone/cpu_fallback/kernel.h"
+#include "lodestone/cpu_fallback/passes/boxes.h"
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/cpu_fallback/passes/trace_wide.h"
 #include "lodestone/cpu_fallback/passes/wide_nodes.h"
@@ -34,12 +35,14 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/bounds", bounds},
       {"geometry_image/wide_nodes", wide_nodes},
       {"geometry_image/boxes_leaves", boxes_leaves},
+      {"geometry_image/boxes_blocks", boxes_blocks},
       {"geometry_image/boxes", boxes},
       {"geometry_image/camera", camera},
       {"geometry_image/trace_threaded", trace_threaded},
       {"geometry_image/trace_octant", trace_octant},
       {"geometry_image/trace_wide", trace_wide},
       {"geometry_image/trace_boxes", trace_boxes},
+      {"geometry_image/trace_tile", trace_tile},
       {"geometry_image/mask", mask},
       {"geometry_image/shade", shade},
       {"geometry_image/ambient", ambient},

@@ -7,6 +7,8 @@
 
 namespace lodestone::cpu_fallback {
 
+void boxes_blocks(const CpuDispatch& dispatch);
+
 template <class Probe>
 class BoxesKernel : public Kernel<Probe> {
  public:
@@ -22,6 +24,15 @@ class BoxesKernel : public Kernel<Probe> {
                                       c[0].hi[axis], c[1].hi[axis], c[2].hi[axis], c[3].hi[axis]));
     }
     return join(c);
+  }
+
+  // The scene's extent to at least `reach`.
+  static void raise(const Words& extent, float reach) {
+    std::atomic_ref<uint32_t> word(extent.words[0]);
+    const uint32_t bits = layout::floatBitsToUint(reach);
+    uint32_t before = word.load(std::memory_order_relaxed);
+    while (bits > before && !word.compare_exchange_weak(before, bits, std::memory_order_relaxed)) {
+    }
   }
 
   static layout::Box join(const layout::Box (&c)[4]) {

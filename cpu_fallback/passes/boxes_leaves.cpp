@@ -11,18 +11,15 @@ class BoxesLeaves : public BoxesKernel<Probe> {
 
   void operator()(uint32_t index) {
     float reach = 0;
-    if (this->push_.written_above == 0) {
+    if (this->push_.depth == 1) {
       if (index < this->push_.written) bound_record(index, reach);
     } else if (index < this->push_.written_above) {
-      const layout::Box parents[4] = {bound_record(4 * index, reach), bound_record(4 * index + 1, reach),
-                                      bound_record(4 * index + 2, reach), bound_record(4 * index + 3, reach)};
-      this->store_record(boxes_, this->push_.depth - 2, index, parents);
+      const uint32_t group = this->load(groups_, index);
+      const layout::Box parents[4] = {bound_record(4 * group, reach), bound_record(4 * group + 1, reach),
+                                      bound_record(4 * group + 2, reach), bound_record(4 * group + 3, reach)};
+      this->store_record(boxes_, this->push_.depth - 2, group, parents);
     }
-    std::atomic_ref<uint32_t> extent(extent_.words[0]);
-    const uint32_t bits = layout::floatBitsToUint(reach);
-    uint32_t before = extent.load(std::memory_order_relaxed);
-    while (bits > before && !extent.compare_exchange_weak(before, bits, std::memory_order_relaxed)) {
-    }
+    this->raise(extent_, reach);
   }
 
  private:
@@ -47,7 +44,7 @@ class BoxesLeaves : public BoxesKernel<Probe> {
 
   Words leaf_map_ = this->words(0);
   Quads geometry_ = this->quads(1), boxes_ = this->quads(2);
-  Words extent_ = this->words(3);
+  Words extent_ = this->words(3), groups_ = this->words(4);
   glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
 };
 

@@ -20,6 +20,7 @@ void camera(const CpuDispatch& dispatch);
 void trace_threaded(const CpuDispatch& dispatch);
 void trace_octant(const CpuDispatch& dispatch);
 void trace_boxes(const CpuDispatch& dispatch);
+void trace_tile(const CpuDispatch& dispatch);
 void mask(const CpuDispatch& dispatch);
 void shade(const CpuDispatch& dispatch);
 void ambient(const CpuDispatch& dispatch);

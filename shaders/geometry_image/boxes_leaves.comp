@@ -9,7 +9,8 @@ WORDS(0, readonly, leaf_map);
 QUADS(1, readonly, geometry);
 QUADS(2, writeonly, boxes);
 STRUCTS(3, restrict, uint, extent);  // float bits, which order like integers
-COUNTERS(4)
+WORDS(4, readonly, groups);          // of sixteen slots: those that boxes_blocks leaves
+COUNTERS(5)
 PUSH(BoxesPush, push);
 
 #include "geometry_image/boxes.glsl"
@@ -52,14 +53,16 @@ Box bound_record(uint index, vec3 per_step) {
 void main() {
   uint index = invocation();
   vec3 per_step = vec3(1.0 / push.grid.step.x, 1.0 / push.grid.step.y, 1.0 / push.grid.step.z);
-  if (push.written_above == 0u) {  // a tree of one record
+  if (push.depth == 1u) {  // a tree of one record
     if (index < push.written) bound_record(index, per_step);
   } else if (index < push.written_above) {
-    Box p0 = bound_record(4u * index, per_step);
-    Box p1 = bound_record(4u * index + 1u, per_step);
-    Box p2 = bound_record(4u * index + 2u, per_step);
-    Box p3 = bound_record(4u * index + 3u, per_step);
-    store_record(push.depth - 2u, index, p0, p1, p2, p3);
+    uint group;
+    LOAD1(group, groups, index);
+    Box p0 = bound_record(4u * group, per_step);
+    Box p1 = bound_record(4u * group + 1u, per_step);
+    Box p2 = bound_record(4u * group + 2u, per_step);
+    Box p3 = bound_record(4u * group + 3u, per_step);
+    store_record(push.depth - 2u, group, p0, p1, p2, p3);
   }
   // Few invocations raise it: most would wait for each other in vain.
   if (floatBitsToUint(reach) > extent[0]) atomicMax(extent[0], floatBitsToUint(reach));

@@ -24,7 +24,7 @@ struct BoxGrid {
 
 struct BoxesPush {
   uint depth;          // of the nodes that are read: the leaves, or a level above
-  uint count;          // leaf slots, or records of that level
+  uint count;          // leaf slots, blocks of them, or records of that level
   uint written;        // records of the next level to write ...
   uint written_above;  // ... and of the one above that
   BoxGrid grid;

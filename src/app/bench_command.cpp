@@ -231,7 +231,7 @@ void add_bench_command(CLI::App& app, std::function<int()>& run) {
               for (const std::string& name : parse_list("--tracer", text))
                 parse_choice("--tracer", name, tracer_names());
             });
-  add_value(*command, "--traversal", "LIST", "Traversals: auto (default), threaded, octant, wide",
+  add_value(*command, "--traversal", "LIST", "Traversals: auto (default), threaded, octant, wide, tile",
             [&](const std::string& text) {
               options.traversals = parse_list("--traversal", text);
               for (const std::string& name : options.traversals) parse_traversal("--traversal", name);

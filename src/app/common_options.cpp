@@ -210,10 +210,11 @@ void check_frames(const FrameOptions& options) {
 
 render::Traversal parse_traversal(const std::string& option, const std::string& text) {
   using render::Traversal;
-  parse_choice(option, text, {"auto", "threaded", "octant", "wide"});
+  parse_choice(option, text, {"auto", "threaded", "octant", "wide", "tile"});
   return text == "threaded" ? Traversal::threaded
          : text == "octant" ? Traversal::octant
          : text == "wide"   ? Traversal::wide
+         : text == "tile"   ? Traversal::tile
                             : Traversal::automatic;
 }
 
@@ -295,7 +296,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   add_seed_option(app, options.seed);
   add_camera_option(app, options.camera);
   add_value(app, "--traversal", "NAME",
-            "threaded, octant, wide, or auto: the fastest of the device (default). All give the "
+            "threaded, octant, wide, tile, or auto: the fastest of the device (default). All give the "
             "same hits",
             [&](const std::string& text) { options.traversal = parse_traversal("--traversal", text); });
   add_integrator_options(app, options);

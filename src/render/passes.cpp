@@ -74,9 +74,19 @@ constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
                                             {"extent", structs, read},
                                             {"trails", quad, read_write}};
 
+// Its leaf map is read in pairs of slots.
+constexpr Binding trace_tile_bindings[] = {
+    RAY_BINDINGS, {"boxes", quad, read}, {"leaf_map", quad, read}, {"extent", structs, read}};
+
 #undef RAY_BINDINGS
 
 constexpr Binding boxes_leaves_bindings[] = {{"leaf_map", word, read},
+                                             {"geometry", quad, read},
+                                             {"boxes", quad, write},
+                                             {"extent", structs, read_write},
+                                             {"groups", word, read}};
+
+constexpr Binding boxes_blocks_bindings[] = {{"blocks", quad, read},
                                              {"geometry", quad, read},
                                              {"boxes", quad, write},
                                              {"extent", structs, read_write}};
@@ -163,6 +173,8 @@ const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_le
                              sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
 const PassDecl wide_nodes{"bounds", "geometry_image/wide_nodes", wide_nodes_bindings, sizeof(BoundsPush)};
+const PassDecl boxes_blocks{"bounds", "geometry_image/boxes_blocks", boxes_blocks_bindings,
+                            sizeof(BoxesPush)};
 const PassDecl boxes_leaves{"bounds", "geometry_image/boxes_leaves", boxes_leaves_bindings,
                             sizeof(BoxesPush)};
 const PassDecl boxes{"bounds", "geometry_image/boxes", boxes_bindings, sizeof(BoxesPush)};
@@ -172,6 +184,7 @@ const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_th
 const PassDecl trace_octant{"trace", "geometry_image/trace_octant", trace_octant_bindings, sizeof(TracePush)};
 const PassDecl trace_wide{"trace", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
 const PassDecl trace_boxes{"trace", "geometry_image/trace_boxes", trace_boxes_bindings, sizeof(BoxTracePush)};
+const PassDecl trace_tile{"trace", "geometry_image/trace_tile", trace_tile_bindings, sizeof(BoxTracePush)};
 const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_threaded_bindings,
                                 sizeof(TracePush)};
 const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_octant_bindings,

@@ -8,9 +8,9 @@
 namespace lodestone::render::passes {
 
 extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rasterise, bounds_leaves, bounds,
-    wide_nodes, boxes_leaves, boxes;
-extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, occlude_threaded,
-    occlude_octant, occlude_wide, occlude_boxes;
+    wide_nodes, boxes_blocks, boxes_leaves, boxes;
+extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, trace_tile,
+    occlude_threaded, occlude_octant, occlude_wide, occlude_boxes;
 extern const PassDecl mask, shade, ambient, branch, path, accumulate, aov, resolve;
 
 }  // namespace lodestone::render::passes

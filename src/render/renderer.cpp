@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lodestone/base/error.h"
+#include "lodestone/layout/tile.h"
 #include "lodestone/render/film.h"
 #include "lodestone/render/focus.h"
 #include "lodestone/render/passes.h"
@@ -26,6 +27,20 @@ void download_all(Backend& backend, const Buffer& buffer, std::vector<T>& items)
 bool goes_on(Integrator integrator) {
   return integrator == Integrator::specular || integrator == Integrator::glossy ||
          integrator == Integrator::path;
+}
+
+// Whether most runs of 64 rays start from one point each.
+bool mostly_common_origins(const std::vector<glm::vec4>& rays) {
+  const size_t run = 2 * layout::tile_rays;
+  size_t runs = 0, together = 0;
+  for (size_t first = 0; first < rays.size(); first += run) {
+    bool equal = true;
+    for (size_t i = first; i < std::min(first + run, rays.size()); i += 2)
+      equal = equal && rays[i] == rays[first];
+    ++runs;
+    if (equal) ++together;
+  }
+  return 2 * together > runs;
 }
 
 }  // namespace
@@ -174,9 +189,12 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, Trace
 // All samples of a run of pixels. False: interrupted.
 bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted) {
   if (!settings.aovs.empty()) {
+    const bool wants_steps =
+        std::find(settings.aovs.begin(), settings.aovs.end(), "steps") != settings.aovs.end();
     const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1, 0, 0};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
-    if (!trace_masked(primary, count, {.steps = true}, interrupted)) return false;
+    if (!trace_masked(primary, count, {.steps = wants_steps, .common_origin = true}, interrupted))
+      return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
         count, {tables.sources, tables.layered});
   }
@@ -191,7 +209,7 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
                                0,
                                settings.max_bounces};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
-    if (!trace_masked(primary, count, {}, interrupted)) return false;
+    if (!trace_masked(primary, count, {.common_origin = !has_lens()}, interrupted)) return false;
     if (!integrate(push, interrupted)) return false;
   }
   run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()},
@@ -256,12 +274,13 @@ void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
   State& s = *state_;
   s.loaded_rays = static_cast<uint32_t>(rays.size() / 2);
   s.loaded = RayBuffers(s.backend, "loaded_", s.loaded_rays);
+  s.loaded_together = mostly_common_origins(rays);
   s.backend.upload(s.loaded.rays.id(), std::as_bytes(std::span(rays)));
 }
 
 void Renderer::trace_loaded() {
   State& s = *state_;
-  s.tracing.trace(s.geometry, s.loaded, s.loaded_rays, {}, {});
+  s.tracing.trace(s.geometry, s.loaded, s.loaded_rays, {.common_origin = s.loaded_together}, {});
 }
 
 std::vector<glm::uvec4> Renderer::hits() {
@@ -276,7 +295,7 @@ const char* to_string(Integrator integrator) {
 }
 
 const char* to_string(Traversal traversal) {
-  const char* names[] = {"auto", "threaded", "octant", "wide"};
+  const char* names[] = {"auto", "threaded", "octant", "wide", "tile"};
   return names[static_cast<uint32_t>(traversal)];
 }
 

@@ -19,8 +19,9 @@
 
 namespace lodestone::render {
 
-// `automatic` takes the fastest of the back end.
-enum class Traversal : uint32_t { automatic, threaded, octant, wide };
+// `tile`: primary rays by tiles of 64, on devices with subgroups of 8; all other rays as `wide`. `automatic`
+// takes the fastest of the back end.
+enum class Traversal : uint32_t { automatic, threaded, octant, wide, tile };
 // `eye`: direct light where the camera's rays end; `dof`: the same through a lens of some size. `ao`: ambient
 // occlusion there, 1 where nothing is near. Rays go on with `specular` (direct light, and what smooth
 // surfaces mirror and let through), `glossy` (the same of rough ones, by a drawn ray) and `path` (all light,

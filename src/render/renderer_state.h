@@ -36,6 +36,7 @@ struct Renderer::State {
   Buffer frame, lights;
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
+  bool loaded_together = false;  // see TraceQuery::common_origin
   Buffer contributions, radiance, paths, branches, going_on, beauty, display, aovs;
   uint32_t light_count = 0, sky_lights = 0;
   uint32_t batch_rays = 0;

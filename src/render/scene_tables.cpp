@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lodestone/layout/atlas.h"
 #include "lodestone/layout/frame.h"
 
 namespace lodestone::render {
@@ -194,7 +195,9 @@ SceneTables::SceneTables(Backend& backend, const scene::Scene& scene, const scen
   upload_deltas(*this, backend, assembly);
   triangles = make_buffer(backend, "triangles", 16, assembly.triangles);
   texel_map = make_buffer(backend, "texel_map", 16, atlas.texel_map);
-  leaf_map = make_buffer(backend, "leaf_map", 4, atlas.leaf_map);
+  std::vector<glm::uvec2> slots = atlas.leaf_map;  // in pairs, for those who read them as quads
+  if (slots.size() % 2 != 0) slots.emplace_back(layout::empty_slot, 0);
+  leaf_map = make_buffer(backend, "leaf_map", 4, slots);
   charts = make_buffer(backend, "charts", 16, atlas.charts);
   const auto is_mapped = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_mapped; };
   if (std::any_of(atlas.charts.begin(), atlas.charts.end(), is_mapped)) sources = 3;

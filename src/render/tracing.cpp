@@ -3,16 +3,29 @@
 
 #include <algorithm>
 
+#include "lodestone/base/error.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
+#include "lodestone/layout/tile.h"
 #include "lodestone/layout/trace.h"
+#include "lodestone/render/leaf_blocks.h"
 #include "lodestone/render/passes.h"
+#include "lodestone/render/scene_tables.h"
 
 namespace lodestone::render {
 namespace {
 
-Traversal choose_traversal(Traversal wanted) {
-  return wanted == Traversal::automatic ? Traversal::wide : wanted;
+Traversal choose_traversal(const DeviceInfo& device, Traversal wanted) {
+  const bool shuffles =
+      std::find(device.lacks.begin(), device.lacks.end(), "subgroup shuffles") == device.lacks.end();
+  const bool tiles = device.subgroup_size == layout::tile_lanes && shuffles;
+  if (wanted == Traversal::tile && !tiles) {
+    fail(ExitCode::usage, "--traversal tile",
+         "needs a device with subgroups of {} that can shuffle; {} has none: use wide", layout::tile_lanes,
+         device.name);
+  }
+  if (wanted == Traversal::automatic) return tiles ? Traversal::tile : Traversal::wide;
+  return wanted;
 }
 
 // A flat axis gets a thousandth of the largest one. Rounded outwards, all planes stay below 65535.
@@ -33,15 +46,22 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
     : backend_(backend),
       leaf_map_(leaf_map),
       on_cpu_(backend.info().kind == "cpu"),
-      traversal_(choose_traversal(traversal)),
+      traversal_(choose_traversal(backend.info(), traversal)),
       loop_budget_(loop_budget),
       levels_(atlas.depth, static_cast<uint32_t>(atlas.leaf_map.size())),
       pending_(backend, {"pending", 1, 4}) {
   if (uses_boxes()) {
-    const uint64_t records =
-        uint64_t(layout::level_base(levels_.depth() - 1)) + levels_.places(levels_.depth() - 1);
+    // Blocks of slots write four records each, also those past the last slot.
+    const uint32_t depth = levels_.depth();
+    const uint64_t last_level = depth >= 2 ? 4 * uint64_t(levels_.places(depth - 2)) : 1;
+    const uint64_t records = layout::level_base(depth - 1) + last_level;
     boxes_ = Buffer(backend, {"boxes", 3 * records, 16});
     extent_ = Buffer(backend, {"extent", 1, 4});
+    const LeafBlocks found = find_leaf_blocks(atlas.leaf_map, levels_);
+    block_count_ = static_cast<uint32_t>(found.blocks.size());
+    group_count_ = static_cast<uint32_t>(found.others.size());
+    leaf_blocks_ = make_buffer(backend, "leaf_blocks", 16, found.blocks);
+    leaf_groups_ = make_buffer(backend, "leaf_groups", 4, found.others);
     return;
   }
   nodes_lo_ = Buffer(backend, {"nodes_lo", levels_.nodes(), 16});
@@ -103,18 +123,23 @@ void Tracing::build_boxes(const Buffer& geometry, const scene::Bounds& frame) {
   grid_ = make_grid(frame);
   const uint32_t zero = 0;
   backend_.upload(extent_.id(), std::as_bytes(std::span(&zero, 1)));
-  // Two levels a dispatch; level `depth` are the quads, whose count is that of slots.
-  for (uint32_t level = levels_.depth(); level > 0;) {
-    const bool leaves = level == levels_.depth(), two = level >= 2;
-    const layout::BoxesPush push{level, leaves ? levels_.slots() : levels_.places(level),
-                                 levels_.places(level - 1), two ? levels_.places(level - 2) : 0, grid_};
-    const uint32_t invocations = two ? push.written_above : push.written;
-    if (leaves) {
-      run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extent_.id()}, push,
-          invocations);
-    } else {
-      run(passes::boxes, {boxes_.id()}, push, invocations);
-    }
+  // Two levels a dispatch; level `depth` are the quads.
+  const uint32_t depth = levels_.depth();
+  const auto written = [&](uint32_t level) { return level > 0 ? levels_.places(level - 1) : 0; };
+  if (block_count_ > 0) {
+    run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id(), extent_.id()},
+        layout::BoxesPush{depth, block_count_, written(depth), 0, grid_}, block_count_);
+  }
+  if (group_count_ > 0 || depth == 1) {
+    run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extent_.id(), leaf_groups_.id()},
+        layout::BoxesPush{depth, levels_.slots(), written(depth), group_count_, grid_},
+        depth == 1 ? written(depth) : group_count_);
+  }
+  for (uint32_t level = depth - 2; depth > 2 && level > 0;) {
+    const bool two = level >= 2;
+    const layout::BoxesPush push{level, levels_.places(level), written(level), two ? written(level - 1) : 0,
+                                 grid_};
+    run(passes::boxes, {boxes_.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }
 }
@@ -151,14 +176,27 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   }
 }
 
+void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count) {
+  const uint32_t tiles = (count + layout::tile_rays - 1) / layout::tile_rays;
+  run(passes::trace_tile,
+      {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
+       boxes_.id(), leaf_map_.id(), extent_.id()},
+      layout::BoxTracePush{count, levels_.depth(), 0, loop_budget_, grid_}, tiles * layout::tile_lanes);
+}
+
 bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
                     const Interrupted& interrupted) {
   const uint32_t zero = 0;
+  const bool tiles = traversal_ == Traversal::tile && query.common_origin && !query.any_hit && !query.steps;
   bool resume = take_pending() != 0;
   do {
     if (interrupted && interrupted()) return false;
     backend_.upload(pending_.id(), std::as_bytes(std::span(&zero, 1)));
-    dispatch(geometry, rays, count, query, resume);
+    if (tiles && !resume) {
+      dispatch_tiles(geometry, rays, count);  // what does not go together is left to the next dispatch
+    } else {
+      dispatch(geometry, rays, count, query, resume);
+    }
     resume = true;
   } while (take_pending() != 0);
   return true;

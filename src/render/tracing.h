@@ -33,9 +33,10 @@ struct RayBuffers {
 
 // What is asked of a run of rays.
 struct TraceQuery {
-  bool any_hit = false;  // stop at the first hit found; hits say only whether there is one
-  bool steps = false;    // count the nodes visited by each ray
-  bool shadow = false;   // statistics call it `occlude`
+  bool any_hit = false;        // stop at the first hit found; hits say only whether there is one
+  bool steps = false;          // count the nodes visited by each ray
+  bool shadow = false;         // statistics call it `occlude`
+  bool common_origin = false;  // runs of 64 rays start from one point and go nearly the same way
 };
 
 class Tracing {
@@ -66,7 +67,10 @@ class Tracing {
   void build_links();
   void build_nodes(const Buffer& geometry);
   void build_boxes(const Buffer& geometry, const scene::Bounds& frame);
-  bool uses_boxes() const { return traversal_ == Traversal::wide && !on_cpu_; }
+  bool uses_boxes() const {
+    return traversal_ == Traversal::tile || (traversal_ == Traversal::wide && !on_cpu_);
+  }
+  void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count);
   void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
                 bool resume);
 
@@ -78,7 +82,9 @@ class Tracing {
   HierarchyLevels levels_;
   layout::BoxGrid grid_{};
   Buffer nodes_lo_, nodes_hi_, links_, wide_nodes_;  // 32 bits, and the CPU's copy in 16
-  Buffer boxes_, extent_;                            // 16 bits
+  Buffer leaf_blocks_, leaf_groups_;                 // what boxes_blocks and boxes_leaves work through
+  uint32_t block_count_ = 0, group_count_ = 0;
+  Buffer boxes_, extent_;  // 16 bits
   Buffer pending_;
 };
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "lodestone/layout/tile.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/grid_sphere.h"
 #include "lodestone/test_support/rays.h"
@@ -48,6 +49,9 @@ void expect_all_equal(const ReadyScene& ready, const Rays& rays) {
     EXPECT_EQ(hits_of(ready, device, render::Traversal::octant, rays, 0, 50), expected) << device;
     EXPECT_EQ(hits_of(ready, device, render::Traversal::wide, rays), expected) << device;
     EXPECT_EQ(hits_of(ready, device, render::Traversal::wide, rays, 0, 50), expected) << device;
+    if (open(device)->info().subgroup_size != layout::tile_lanes) continue;
+    EXPECT_EQ(hits_of(ready, device, render::Traversal::tile, rays), expected) << device;
+    EXPECT_EQ(hits_of(ready, device, render::Traversal::tile, rays, 0, 5), expected) << device;
   }
 }
 

@@ -8,10 +8,14 @@
 namespace lodestone::test {
 
 Contender::Contender(const ReadyScene& ready, const std::string& device,
-                     const render::BackendOptions& options)
+                     const render::BackendOptions& options, const std::string& traversal)
     : device_(device), backend_(open(device, options)) {
   render::Settings settings;
   settings.width = settings.height = 8;
+  for (const auto each : {render::Traversal::threaded, render::Traversal::octant, render::Traversal::wide,
+                          render::Traversal::tile}) {
+    if (traversal == to_string(each)) settings.traversal = each;
+  }
   renderer_ =
       std::make_unique<render::Renderer>(*backend_, ready.scene, ready.assembly, ready.atlas, settings);
 }

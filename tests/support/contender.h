@@ -16,8 +16,10 @@ using PassSeconds = std::map<std::string, double>;  // by the name of the pass, 
 
 class Contender {
  public:
-  // `ready` must outlive it. Throws Error(device).
-  Contender(const ReadyScene& ready, const std::string& device, const render::BackendOptions& options = {});
+  // `ready` must outlive it. `traversal`: by its name. Throws Error(device), or Error(usage) where the device
+  // cannot run that traversal.
+  Contender(const ReadyScene& ready, const std::string& device, const render::BackendOptions& options = {},
+            const std::string& traversal = "auto");
 
   render::Renderer& renderer() { return *renderer_; }
   // Waits; what the passes took that have run since the last call: device time where there is one.
