@@ -79,6 +79,9 @@ struct Structs {
 inline glm::vec3 as_vec3(const glm::uvec4& bits) {
   return {layout::uintBitsToFloat(bits.x), layout::uintBitsToFloat(bits.y), layout::uintBitsToFloat(bits.z)};
 }
+inline glm::vec4 as_vec4(const glm::uvec4& bits) {
+  return glm::vec4(as_vec3(bits), layout::uintBitsToFloat(bits.w));
+}
 inline glm::uvec4 as_bits(const glm::vec3& v, uint32_t w) {
   return {layout::floatBitsToUint(v.x), layout::floatBitsToUint(v.y), layout::floatBitsToUint(v.z), w};
 }

@@ -49,9 +49,9 @@ class Aov : public SurfaceKernel<Probe, source_count> {
   }
 
  private:
-  Quads rays_ = this->quads(16);
-  Words steps_ = this->words(17);
-  Quads aovs_ = this->quads(18);
+  Quads rays_ = this->quads(18);
+  Words steps_ = this->words(19);
+  Quads aovs_ = this->quads(20);
   RayPush push_ = this->template push<RayPush>();
 };
 

@@ -19,7 +19,8 @@ class Blend : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
 
-  HWY_ATTR void operator()(uint32_t vertex) {
+  HWY_ATTR void operator()(uint32_t invocation) {
+    const uint32_t vertex = push_.first + invocation;
     const glm::uvec4 range = this->load(vertex_ranges_, vertex);
     const float* base_normal = this->loaded(base_normals_, vertex);
     Lanes4 position = load_lanes(this->loaded(base_positions_, vertex));

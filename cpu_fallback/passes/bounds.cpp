@@ -32,7 +32,7 @@ class Bounds : public Kernel<Probe> {
  private:
   HWY_ATTR BoundLanes load_bound(uint32_t index) {
     if (index >= push_.count) return empty_bound();
-    const uint32_t address = layout::level_base(push_.depth) + index;
+    const uint32_t address = push_.first_node + layout::level_base(push_.depth) + index;
     return {load_lanes(this->loaded(nodes_lo_, address)), load_lanes(this->loaded(nodes_hi_, address))};
   }
 
@@ -47,7 +47,7 @@ class Bounds : public Kernel<Probe> {
   HWY_ATTR BoundLanes store_node(uint32_t levels, uint32_t index, const BoundLanes& c0, const BoundLanes& c1,
                                  const BoundLanes& c2, const BoundLanes& c3) {
     const BoundLanes node = join(join(c0, c1), join(c2, c3));
-    const uint32_t address = layout::level_base(push_.depth - levels) + index;
+    const uint32_t address = push_.first_node + layout::level_base(push_.depth - levels) + index;
     store_lanes(node.lo, child_order(c0, c1, c2, c3), this->stored(nodes_lo_, address));
     store_lanes(node.hi, 0, this->stored(nodes_hi_, address));
     return node;

@@ -23,7 +23,7 @@ class BoundsLeaves : public Kernel<Probe> {
     const BoundLanes c0 = bound_leaf(4 * index), c1 = bound_leaf(4 * index + 1),
                      c2 = bound_leaf(4 * index + 2), c3 = bound_leaf(4 * index + 3);
     const BoundLanes parent = join(join(c0, c1), join(c2, c3));
-    const uint32_t address = layout::level_base(push_.depth - 1) + index;
+    const uint32_t address = push_.first_node + layout::level_base(push_.depth - 1) + index;
     store_lanes(parent.lo, child_order(c0, c1, c2, c3), this->stored(nodes_lo_, address));
     store_lanes(parent.hi, 0, this->stored(nodes_hi_, address));
   }
@@ -33,8 +33,9 @@ class BoundsLeaves : public Kernel<Probe> {
     BoundLanes bound = empty_bound();
     uint32_t texel = layout::empty_slot, stride = 0;
     if (slot < push_.count) {
-      texel = this->load(leaf_map_, 2 * uint64_t(slot));
-      stride = this->load(leaf_map_, 2 * uint64_t(slot) + 1);
+      const uint64_t entry = 2 * (uint64_t(push_.first_slot) + slot);
+      texel = this->load(leaf_map_, entry);
+      stride = this->load(leaf_map_, entry + 1);
     }
     if (texel != layout::empty_slot) {
       const Lanes4 a = load_lanes(this->loaded(geometry_, texel)),
@@ -44,7 +45,7 @@ class BoundsLeaves : public Kernel<Probe> {
       bound = {min(min(a, b), min(c, e)), max(max(a, b), max(c, e))};
     }
     if (slot < push_.written) {
-      const uint32_t address = layout::level_base(push_.depth) + slot;
+      const uint32_t address = push_.first_node + layout::level_base(push_.depth) + slot;
       store_lanes(bound.lo, layout::leaf_flag | texel, this->stored(nodes_lo_, address));
       store_lanes(bound.hi, stride, this->stored(nodes_hi_, address));
     }

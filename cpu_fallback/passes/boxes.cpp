@@ -22,7 +22,8 @@ class Boxes : public BoxesKernel<Probe> {
  private:
   layout::Box load_box(uint32_t index) {
     if (index >= this->push_.count) return layout::empty_box();
-    const uint64_t record = 3 * (uint64_t(layout::level_base(this->push_.depth)) + index);
+    const uint64_t record =
+        3 * (uint64_t(this->push_.first_node) + layout::level_base(this->push_.depth) + index);
     return layout::record_box(this->load(boxes_, record), this->load(boxes_, record + 1),
                               this->load(boxes_, record + 2));
   }

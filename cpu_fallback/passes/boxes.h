@@ -17,7 +17,7 @@ class BoxesKernel : public Kernel<Probe> {
  protected:
   // Record `index`, of a node of level `depth`. Returns what holds its boxes.
   layout::Box store_record(Quads boxes, uint32_t depth, uint32_t index, const layout::Box (&c)[4]) {
-    const uint64_t record = 3 * (uint64_t(layout::level_base(depth)) + index);
+    const uint64_t record = 3 * (uint64_t(push_.first_node) + layout::level_base(depth) + index);
     for (int axis = 0; axis < 3; ++axis) {
       this->store(boxes, record + static_cast<uint64_t>(axis),
                   layout::pack_planes(c[0].lo[axis], c[1].lo[axis], c[2].lo[axis], c[3].lo[axis],
@@ -26,9 +26,9 @@ class BoxesKernel : public Kernel<Probe> {
     return join(c);
   }
 
-  // The scene's extent to at least `reach`.
-  static void raise(const Words& extent, float reach) {
-    std::atomic_ref<uint32_t> word(extent.words[0]);
+  // The object's extent to at least `reach`.
+  void raise(const Words& extents, float reach) const {
+    std::atomic_ref<uint32_t> word(extents.words[push_.object]);
     const uint32_t bits = layout::floatBitsToUint(reach);
     uint32_t before = word.load(std::memory_order_relaxed);
     while (bits > before && !word.compare_exchange_weak(before, bits, std::memory_order_relaxed)) {

@@ -11,7 +11,7 @@ class BoxesBlocks : public BoxesKernel<Probe> {
 
   void operator()(uint32_t index) {
     if (index >= this->push_.count) return;
-    const glm::uvec4 block = this->load(blocks_, index);
+    const glm::uvec4 block = this->load(blocks_, this->push_.first_item + index);
     const uint32_t stride = block.z, width = block.w & 255, height = block.w >> 8;
     glm::vec3 points[5][5];
     for (uint32_t y = 0; y < 5; ++y) {
@@ -37,12 +37,12 @@ class BoxesBlocks : public BoxesKernel<Probe> {
       parents[parent] = this->store_record(boxes_, this->push_.depth - 1, 4 * block.x + parent, children);
     }
     this->store_record(boxes_, this->push_.depth - 2, block.x, parents);
-    this->raise(extent_, reach);
+    this->raise(extents_, reach);
   }
 
  private:
   Quads blocks_ = this->quads(0), geometry_ = this->quads(1), boxes_ = this->quads(2);
-  Words extent_ = this->words(3);
+  Words extents_ = this->words(3);
   glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
 };
 

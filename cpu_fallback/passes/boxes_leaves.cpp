@@ -14,19 +14,19 @@ class BoxesLeaves : public BoxesKernel<Probe> {
     if (this->push_.depth == 1) {
       if (index < this->push_.written) bound_record(index, reach);
     } else if (index < this->push_.written_above) {
-      const uint32_t group = this->load(groups_, index);
+      const uint32_t group = this->load(groups_, this->push_.first_item + index);
       const layout::Box parents[4] = {bound_record(4 * group, reach), bound_record(4 * group + 1, reach),
                                       bound_record(4 * group + 2, reach), bound_record(4 * group + 3, reach)};
       this->store_record(boxes_, this->push_.depth - 2, group, parents);
     }
-    this->raise(extent_, reach);
+    this->raise(extents_, reach);
   }
 
  private:
   layout::Box bound_leaf(uint32_t slot, float& reach) {
     if (slot >= this->push_.count) return layout::empty_box();
-    const uint32_t texel = this->load(leaf_map_, 2 * uint64_t(slot)),
-                   stride = this->load(leaf_map_, 2 * uint64_t(slot) + 1);
+    const uint64_t entry = 2 * (uint64_t(this->push_.first_slot) + slot);
+    const uint32_t texel = this->load(leaf_map_, entry), stride = this->load(leaf_map_, entry + 1);
     if (texel == layout::empty_slot) return layout::empty_box();
     const layout::Bound bound = layout::quad_bound(
         as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
@@ -44,7 +44,7 @@ class BoxesLeaves : public BoxesKernel<Probe> {
 
   Words leaf_map_ = this->words(0);
   Quads geometry_ = this->quads(1), boxes_ = this->quads(2);
-  Words extent_ = this->words(3), groups_ = this->words(4);
+  Words extents_ = this->words(3), groups_ = this->words(4);
   glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
 };
 

@@ -23,9 +23,9 @@ class Links : public VaryingKernel<Probe> {
     const uvec1 index = this->own_index();
     const uvec1 address = level_base(push_.depth) + index;
     uvec1 hit = 4u * address + 1u;
-    if (push_.depth == push_.leaf_depth) hit = leaf_flag | this->load(leaf_map_, index, 2);
-    this->store(links_, address, hit, 2);
-    this->store(links_, address, miss(index), 2, 1);
+    if (push_.depth == push_.leaf_depth) hit = leaf_flag | this->load(leaf_map_, push_.first_slot + index, 2);
+    this->store(links_, push_.first_node + address, hit, 2);
+    this->store(links_, push_.first_node + address, miss(index), 2, 1);
   }
 
  private:
@@ -43,7 +43,7 @@ class Links : public VaryingKernel<Probe> {
       const bvec1 leaf = searching && level == push_.leaf_depth;
       bvec1 empty = false;
       if (const Where leaves(*this, leaf); leaves.any()) {
-        empty = leaf && this->load(leaf_map_, place, 2) == empty_slot;
+        empty = leaf && this->load(leaf_map_, push_.first_slot + place, 2) == empty_slot;
       }
       link = select(searching && !empty, level_base(level) + place, link);
       searching = empty;

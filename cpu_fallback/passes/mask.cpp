@@ -29,7 +29,7 @@ class Mask : public SurfaceKernel<Probe, source_count> {
       uvec4 from = this->load_own(rays_, 2);
       from.w = hit.x;
       this->store_own(rays_, from, 2);
-      this->store_own(states_, uvec4(0u, 0u, trace_restart, hit.w));
+      this->store_own(states_, uvec4(0u, this->placed_by(), trace_restart, hit.w + 1u));
       this->add(pending_, 0, this->active_count());
     }
     const Where here(*this, !cut_out);
@@ -48,8 +48,8 @@ class Mask : public SurfaceKernel<Probe, source_count> {
     return cut_out;
   }
 
-  Quads rays_ = this->quads(16), states_ = this->quads(17);
-  Words pending_ = this->words(18);
+  Quads rays_ = this->quads(18), states_ = this->quads(19);
+  Words pending_ = this->words(20);
 };
 
 LODESTONE_SURFACE_BLOCK_FUNCTION(mask, Mask)

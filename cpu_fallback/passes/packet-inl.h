@@ -91,11 +91,11 @@ struct Shearing {
 };
 
 template <class Block>
-HWY_ATTR inline void test_quad(Block& block, Packet& packet, uint32_t address, uint32_t lane, Mask entered,
+HWY_ATTR inline void test_quad(Block& block, const TraceTree& tree, Packet& packet, uint32_t address, uint32_t lane, Mask entered,
                                Floats enter) {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
-  const uint32_t texel = block.leaf_texel(address), stride = block.leaf_stride(address);
+  const uint32_t texel = tree.leaf_texel(address), stride = tree.leaf_stride(address);
   const Ids axis = hn::Load(du, packet.axis + lane);
   const Shearing shearing{load3(packet.origin, lane), load3(packet.shear, lane),
                           hn::RebindMask(d, hn::Eq(axis, hn::Set(du, 0))),
@@ -121,11 +121,12 @@ HWY_ATTR inline void test_quad(Block& block, Packet& packet, uint32_t address, u
 }
 
 template <class Block>
-HWY_ATTR inline void load_packet(const Block& block, uint32_t first, uint32_t count, Packet& packet) {
+HWY_ATTR inline void load_packet(const Block& block, float extent, uint32_t first, uint32_t count,
+                                 Packet& packet) {
   for (uint32_t lane = 0; lane < packet_rays; ++lane) {
     layout::Ray ray = block.ray(first + std::min(lane, count - 1));
     if (lane >= count) ray.tmax = -1;
-    const layout::Slabs slabs = layout::make_slabs(ray, block.extent());
+    const layout::Slabs slabs = layout::make_slabs(ray, extent);
     const layout::Shear shear = layout::make_shear(ray);
     packet.axis[lane] = shear.axis;
     packet.shear[0][lane] = shear.x;
@@ -149,21 +150,22 @@ template <class Block>
 HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) {
   const Lanes d;
   const uint32_t width = static_cast<uint32_t>(hn::Lanes(d));
+  const TraceTree tree = block.tree(first);
   Packet packet;
-  load_packet(block, first, count, packet);
-  const uint32_t octant = layout::make_slabs(block.ray(first), block.extent()).octant;
+  load_packet(block, tree.extent(), first, count, packet);
+  const uint32_t octant = layout::make_slabs(block.ray(first), tree.extent()).octant;
   const bool x = (octant & 1) != 0, y = (octant & 2) != 0, z = (octant & 4) != 0;
   layout::Walk walk{0, 0, 0};
   uint32_t visits = 0;
   while (walk.depth != layout::walk_done) {
     const uint32_t address = layout::walk_address(walk);
-    const float* lo = block.nodes_lo(address);
-    const float* hi = block.nodes_hi(address);
+    const float* lo = tree.nodes_lo(address);
+    const float* hi = tree.nodes_hi(address);
     const Vec3 near_plane{hn::Set(d, x ? hi[0] : lo[0]), hn::Set(d, y ? hi[1] : lo[1]),
                           hn::Set(d, z ? hi[2] : lo[2])};
     const Vec3 far_plane{hn::Set(d, x ? lo[0] : hi[0]), hn::Set(d, y ? lo[1] : hi[1]),
                          hn::Set(d, z ? lo[2] : hi[2])};
-    const bool leaf = walk.depth == block.depth();
+    const bool leaf = walk.depth == tree.depth();
     bool inside = false;
     uint32_t active = 0;
     for (uint32_t lane = 0; lane < packet_rays; lane += width) {
@@ -179,14 +181,14 @@ HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) 
       inside = true;
       if (Block::counting) active += static_cast<uint32_t>(hn::CountTrue(d, entered));
       if (leaf) {
-        test_quad(block, packet, address, lane, entered, enter);
+        test_quad(block, tree, packet, address, lane, entered, enter);
       } else if (!Block::counting && lane + width < packet_rays) {
         break;  // one ray that enters takes all of them along
       }
     }
     block.count_step(count, active);
     ++visits;
-    walk = inside && !leaf ? layout::walk_down(walk, (block.order(address) >> (2 * octant)) & 3u)
+    walk = inside && !leaf ? layout::walk_down(walk, (tree.order(address) >> (2 * octant)) & 3u)
                            : layout::walk_on(walk);
   }
   for (uint32_t i = 0; i < count; ++i) {

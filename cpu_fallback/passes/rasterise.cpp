@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/cpu_fallback/passes/passes.h"
 #include "lodestone/layout/arithmetic.h"
+#include "lodestone/layout/frame.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/rasterise.cpp"
@@ -18,7 +19,8 @@ class Rasterise : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
 
-  HWY_ATTR void operator()(uint32_t texel) {
+  HWY_ATTR void operator()(uint32_t index) {
+    const uint32_t texel = push_.first + index;
     const glm::uvec4 source = this->load(texel_map_, texel);
     uint32_t* point = this->stored(geometry_, texel);
     uint32_t* direction = this->stored(normal_map_, texel);
@@ -45,6 +47,7 @@ class Rasterise : public Kernel<Probe> {
   Quads texel_map_ = this->quads(0), triangles_ = this->quads(1);
   Quads positions_ = this->quads(2), normals_ = this->quads(3);
   Quads geometry_ = this->quads(4), normal_map_ = this->quads(5);
+  layout::RangePush push_ = this->template push<layout::RangePush>();
 };
 
 LODESTONE_BLOCK_FUNCTION(HWY_ATTR, rasterise, Rasterise)

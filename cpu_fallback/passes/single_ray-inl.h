@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include <limits>
+#include <optional>
 
 #include "lodestone/cpu_fallback/passes/lanes-inl.h"
 #include "lodestone/cpu_fallback/passes/trace_block.h"
@@ -32,7 +33,8 @@ using Boxes = hn::CappedTag<float, wide_fan>;
 // of the largest terms.
 struct SingleRay {
   layout::Ray ray;
-  uint32_t passed;  // layout::accept_triangle
+  float extent;   // of the hierarchy
+  uint32_t next;  // layout::accept_triangle
   alignas(16) float scale[4], near_offset[4], far_offset[4];
   uint32_t near_plane[3];  // 0: the low one comes first along the ray
   layout::Shear shear;
@@ -43,7 +45,9 @@ struct SingleRay {
 alignas(16) inline constexpr int32_t shear_turns[3][4] = {{1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
 
 // `from`: a ray's two quads.
-HWY_ATTR inline void make_ready(const float* from, float extent, const WideGrid& grid, SingleRay& ready) {
+HWY_ATTR inline void make_ready(const float* from, const TraceTree& tree, SingleRay& ready) {
+  const float extent = ready.extent = tree.extent();
+  const WideGrid& grid = tree.grid();
   const Lanes4 origin = load_lanes(from), along = load_lanes(from + 4);
   const Lanes4 size = abs(along), height = abs(origin);
   ready.ray = {{from[0], from[1], from[2]}, from[3], {from[4], from[5], from[6]}, from[7]};
@@ -146,10 +150,10 @@ HWY_ATTR HWY_FLATTEN HWY_NOINLINE void accept_quad(const Block& block, const Sin
   const glm::vec3 a = block.texel(texel), b = block.texel(texel + 1);
   const glm::vec3 c = block.texel(texel + stride), e = block.texel(texel + stride + 1);
   const layout::Bound bound = layout::quad_bound(a, b, c, e);
-  const layout::Slabs slabs = layout::make_slabs(ray.ray, block.extent());
+  const layout::Slabs slabs = layout::make_slabs(ray.ray, ray.extent);
   const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.ray.tmin);
   if (!(enter <= layout::slab_exit(slabs, bound.lo, bound.hi, best.t))) return;
-  layout::intersect_quad(a, b, c, e, ray.ray, ray.shear, ray.passed, enter, texel, best);
+  layout::intersect_quad(a, b, c, e, ray.ray, ray.shear, ray.next, enter, texel, best);
 }
 
 // Quads are tested in the blocks of four lanes of a vector, a corner a lane. (A vector of unknown length
@@ -256,8 +260,8 @@ HWY_ATTR inline bool may_hit(const QuadLanes& lanes, uint32_t quad, float tmin, 
 
 // The quads of a record's children `hits`.
 template <class Block>
-HWY_ATTR inline void test_quads(Block& block, const SingleRay& ray, uint32_t first_slot, uint32_t hits,
-                                const float* enter, layout::Hit& best) {
+HWY_ATTR inline void test_quads(Block& block, const TraceTree& tree, const SingleRay& ray,
+                                uint32_t first_slot, uint32_t hits, const float* enter, layout::Hit& best) {
 #if HWY_TARGET == HWY_SCALAR
   constexpr uint32_t quads_at_once = 1;
 #endif
@@ -266,7 +270,7 @@ HWY_ATTR inline void test_quads(Block& block, const SingleRay& ray, uint32_t fir
     uint32_t count = 0;
     for (; hits != 0 && count < quads_at_once; hits &= hits - 1) {
       const auto child = static_cast<uint32_t>(std::countr_zero(hits));
-      if (enter[child] > best.t || !block.leaf(first_slot + child, texels[count], strides[count])) continue;
+      if (enter[child] > best.t || !tree.leaf(first_slot + child, texels[count], strides[count])) continue;
       ++count;
     }
     if (count == 0) return;
@@ -354,6 +358,7 @@ struct Stack {
 
 // One ray on its way.
 struct Flight {
+  std::optional<TraceTree> tree;
   SingleRay ray;
   layout::Hit best;
   uint32_t index, record, visits;
@@ -370,8 +375,9 @@ HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
     block.finish(index, false, flight.best, 0);
     return false;
   }
-  make_ready(block.ray_quads(index), block.extent(), block.grid(), flight.ray);
-  flight.ray.passed = block.passed(index);
+  flight.tree = block.tree(index);
+  make_ready(block.ray_quads(index), *flight.tree, flight.ray);
+  flight.ray.next = block.next(index);
   flight.index = index;
   flight.record = flight.visits = 0;
   flight.stack.size = 0;
@@ -381,15 +387,16 @@ HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
 // Visits a record and finds the next; false: there is none.
 template <class Block>
 HWY_ATTR inline bool step(Block& block, Flight& flight) {
-  const uint32_t first_leaf = block.first_leaf_record(), end = block.end_record();
+  const TraceTree& tree = *flight.tree;
+  const uint32_t first_leaf = tree.first_leaf_record(), end = tree.end_record();
   const uint32_t record = flight.record;
   Entered entered;
-  test_boxes(block.wide_node(record), flight.ray, flight.best.t, entered);
+  test_boxes(tree.wide_node(record), flight.ray, flight.best.t, entered);
   block.count_record();
   ++flight.visits;
   if (record >= first_leaf) {
     if (entered.hits != 0) {
-      test_quads(block, flight.ray, (record - first_leaf) * wide_fan, entered.hits, entered.enter,
+      test_quads(block, tree, flight.ray, (record - first_leaf) * wide_fan, entered.hits, entered.enter,
                  flight.best);
       if (block.any_hit() && flight.best.primitive != layout::no_index) return false;
     }
@@ -431,12 +438,13 @@ HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32
     for (uint32_t i = 0; i < size; ++i) {
       Flight& flight = *active[i];
       if (step(block, flight)) {
-        hwy::Prefetch(&block.wide_node(flight.record).planes[0]);
-        hwy::Prefetch(&block.wide_node(flight.record).planes[1]);
-        hwy::Prefetch(&block.wide_node(flight.record).planes[2]);
+        const TraceTree& tree = *flight.tree;
+        hwy::Prefetch(&tree.wide_node(flight.record).planes[0]);
+        hwy::Prefetch(&tree.wide_node(flight.record).planes[1]);
+        hwy::Prefetch(&tree.wide_node(flight.record).planes[2]);
         // Without a branch: where the record is no leaf, the first one's, which is near.
-        const uint32_t first = block.first_leaf_record();
-        const uint32_t* leaves = block.leaves((std::max(flight.record, first) - first) * wide_fan);
+        const uint32_t first = tree.first_leaf_record();
+        const uint32_t* leaves = tree.leaves((std::max(flight.record, first) - first) * wide_fan);
         hwy::Prefetch(leaves);
         hwy::Prefetch(leaves + wide_fan);
         continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A run of rays of one dispatch as the wide traversal sees it: buffers, levels, counters.
+// A run of rays of one dispatch as the wide traversal sees it: buffers, hierarchies, counters.
 #pragma once
 
 #include <algorithm>
@@ -14,36 +14,93 @@ namespace lodestone::cpu_fallback {
 inline constexpr uint32_t packet_rays = 16;
 inline constexpr uint32_t trace_grain = 1024;  // rays of a task, at most
 
+// The hierarchy of one object.
+class TraceTree {
+ public:
+  // `nodes_lo`, `nodes_hi`, `wide`, `leaf_map`: of all objects.
+  TraceTree(const layout::ObjectRecord& object, const Quads& nodes_lo, const Quads& nodes_hi,
+            const WideNode* wide, const Words& leaf_map)
+      : nodes_lo_{nodes_lo.words + 4 * uint64_t(object.first_node)},
+        nodes_hi_{nodes_hi.words + 4 * uint64_t(object.first_node)},
+        wide_(wide + object.first_wide),
+        leaf_map_{leaf_map.words + 2 * uint64_t(object.first_slot)},
+        depth_(object.depth),
+        slots_(object.slots),
+        grid_(as_vec3(nodes_lo_.load4(0)), as_vec3(nodes_hi_.load4(0))),
+        extent_(layout::max2(layout::largest_abs(as_vec3(nodes_lo_.load4(0))),
+                             layout::largest_abs(as_vec3(nodes_hi_.load4(0))))) {
+    const render::WideLevels levels(depth_, slots_);
+    first_leaf_record_ = render::WideLevels::first(levels.count() - 1);
+    end_record_ = levels.end();
+  }
+
+  uint32_t depth() const { return depth_; }
+  float extent() const { return extent_; }
+  const WideGrid& grid() const { return grid_; }
+
+  const WideNode& wide_node(uint32_t record) const { return wide_[record]; }
+  uint32_t first_leaf_record() const { return first_leaf_record_; }
+  uint32_t end_record() const { return end_record_; }
+  // Where the quads of the slots from `slot` on are found, two words each; for prefetching.
+  const uint32_t* leaves(uint32_t slot) const { return leaf_map_.words + 2 * uint64_t(slot); }
+  // The quad of a slot; false: there is none.
+  bool leaf(uint32_t slot, uint32_t& texel, uint32_t& stride) const {
+    if (slot >= slots_) return false;
+    texel = leaf_map_.load1(2 * uint64_t(slot));
+    stride = leaf_map_.load1(2 * uint64_t(slot) + 1);
+    return texel != layout::empty_slot;
+  }
+
+  // 8 floats a node in two arrays: lo x y z, order or leaf; hi x y z, stride.
+  const float* nodes_lo(uint32_t address) const {
+    return reinterpret_cast<const float*>(nodes_lo_.words) + 4 * uint64_t(address);
+  }
+  const float* nodes_hi(uint32_t address) const {
+    return reinterpret_cast<const float*>(nodes_hi_.words) + 4 * uint64_t(address);
+  }
+  uint32_t leaf_texel(uint32_t address) const { return order(address) & ~layout::leaf_flag; }
+  uint32_t leaf_stride(uint32_t address) const { return nodes_hi_.words[4 * uint64_t(address) + 3]; }
+  uint32_t order(uint32_t address) const { return nodes_lo_.words[4 * uint64_t(address) + 3]; }
+
+ private:
+  Quads nodes_lo_, nodes_hi_;
+  const WideNode* wide_;
+  Words leaf_map_;
+  uint32_t depth_, slots_;
+  WideGrid grid_;
+  float extent_;
+  uint32_t first_leaf_record_, end_record_;
+};
+
 template <class Probe>
-class TraceBlock : public NodesKernel<Probe> {
+class TraceBlock : public NodesKernel<Probe, 10> {
  public:
   static constexpr bool counting = Probe::counting;
 
-  explicit TraceBlock(const CpuDispatch& dispatch)
-      : NodesKernel<Probe>(dispatch),
-        extent_(this->scene_extent()),
-        grid_(as_vec3(this->nodes_lo_.load4(0)), as_vec3(this->nodes_hi_.load4(0))),
-        first_leaf_record_(levels_.first(levels_.count() - 1)),
-        end_record_(levels_.end()) {}
+  explicit TraceBlock(const CpuDispatch& dispatch) : NodesKernel<Probe, 10>(dispatch) {}
 
-  uint32_t depth() const { return this->push_.depth; }
-  float extent() const { return extent_; }
-  const WideGrid& grid() const { return grid_; }
-  bool any_hit() const { return NodesKernel<Probe>::any_hit(); }
+  bool any_hit() const { return NodesKernel<Probe, 10>::any_hit(); }
 
-  // Do these rays go together? All of one octant, from nearby origins, in a narrow cone.
+  // The hierarchy that ray `index` goes through.
+  TraceTree tree(uint32_t index) {
+    return TraceTree(this->load_object(this->root(index)), this->nodes_lo_, this->nodes_hi_, wide_,
+                     leaf_map_);
+  }
+
+  // Do these rays go together? All in one object and of one octant, from nearby origins, in a narrow cone.
   bool coherent(uint32_t first, uint32_t count) {
     if (count < 4 || this->push_.resume != 0) return false;
+    const uint32_t object = this->root(first);
     const glm::vec3 lead = direction(first);
     const uint32_t octant = octant_of(lead);
     glm::vec3 lo = origin(first), hi = lo;
     for (uint32_t i = first; i < first + count; ++i) {
       const glm::vec3 other = direction(i);
-      if (octant_of(other) != octant || !(layout::dot3(lead, other) >= 0.98f)) return false;
+      if (this->root(i) != object || octant_of(other) != octant || !(layout::dot3(lead, other) >= 0.98f)) return false;
       lo = layout::min3(lo, origin(i));
       hi = layout::max3(hi, origin(i));
     }
-    return layout::max_component(hi - lo) < extent_ * (1.0f / 64);
+    return layout::max_component(hi - lo) < tree(first).extent() * (1.0f / 64);
   }
 
   const float* ray_quads(uint32_t index) const {
@@ -62,8 +119,8 @@ class TraceBlock : public NodesKernel<Probe> {
     if (this->push_.resume == 0) return true;
     return layout::trace_goes_on(this->states_.load4(index));
   }
-  // What the mask has let this ray through (layout::accept_triangle).
-  uint32_t passed(uint32_t index) {
+  // layout::accept_triangle's `next`, of a ray that the mask has let through.
+  uint32_t next(uint32_t index) {
     return this->push_.resume == 0 ? layout::no_index : this->states_.load4(index).w;
   }
 
@@ -112,35 +169,10 @@ class TraceBlock : public NodesKernel<Probe> {
     this->probe.read(18 * count);
   }
 
-  const WideNode& wide_node(uint32_t record) const { return wide_[record]; }
-  uint32_t first_leaf_record() const { return first_leaf_record_; }
-  uint32_t end_record() const { return end_record_; }
-  // Where the quads of the slots from `slot` on are found, two words each; for prefetching.
-  const uint32_t* leaves(uint32_t slot) const { return leaf_map_.words + 2 * uint64_t(slot); }
-  // The quad of a slot; false: there is none.
-  bool leaf(uint32_t slot, uint32_t& texel, uint32_t& stride) const {
-    if (slot >= this->push_.slots) return false;
-    texel = leaf_map_.load1(2 * uint64_t(slot));
-    stride = leaf_map_.load1(2 * uint64_t(slot) + 1);
-    return texel != layout::empty_slot;
-  }
-
-  // 8 floats a node in two arrays: lo x y z, order or leaf; hi x y z, stride.
-  const float* nodes_lo(uint32_t address) const {
-    return reinterpret_cast<const float*>(this->nodes_lo_.words) + 4 * uint64_t(address);
-  }
-  const float* nodes_hi(uint32_t address) const {
-    return reinterpret_cast<const float*>(this->nodes_hi_.words) + 4 * uint64_t(address);
-  }
   const float* texels(uint32_t index) const {
     return reinterpret_cast<const float*>(this->geometry_.words) + 4 * uint64_t(index);
   }
   glm::vec3 texel(uint32_t index) const { return as_vec3(this->geometry_.load4(index)); }
-  uint32_t leaf_texel(uint32_t address) const {
-    return this->nodes_lo_.words[4 * uint64_t(address) + 3] & ~layout::leaf_flag;
-  }
-  uint32_t leaf_stride(uint32_t address) const { return this->nodes_hi_.words[4 * uint64_t(address) + 3]; }
-  uint32_t order(uint32_t address) const { return this->nodes_lo_.words[4 * uint64_t(address) + 3]; }
 
  private:
   // As stored: whether these are numbers at all, ray() tells.
@@ -152,10 +184,6 @@ class TraceBlock : public NodesKernel<Probe> {
 
   const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(8).words);
   Words leaf_map_ = this->words(9);
-  render::WideLevels levels_{this->push_.depth, this->push_.slots};
-  float extent_;
-  WideGrid grid_;
-  uint32_t first_leaf_record_, end_record_;
 };
 
 }  // namespace lodestone::cpu_fallback

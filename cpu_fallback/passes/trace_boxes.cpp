@@ -9,16 +9,18 @@ namespace {
 using glm::uvec4;
 
 template <class Probe>
-class TraceBoxes : public TraceKernel<Probe, layout::BoxTracePush> {
+class TraceBoxes : public TraceKernel<Probe, 10> {
  public:
-  using TraceKernel<Probe, layout::BoxTracePush>::TraceKernel;
+  using TraceKernel<Probe, 10>::TraceKernel;
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
-    const layout::Slabs slabs = layout::make_slabs(ray, extent_[0]);
+    const uint32_t root = this->root(index);
+    object_ = this->load_object(root);
+    const layout::Slabs slabs = layout::make_slabs(ray, extents_[root]);
     const layout::Shear shear = layout::make_shear(ray);
-    const layout::BoxRay box_ray = layout::make_box_ray(slabs, this->push_.grid);
-    typename TraceKernel<Probe, layout::BoxTracePush>::State state;
+    const layout::BoxRay box_ray = layout::make_box_ray(slabs, layout::object_grid(object_));
+    typename TraceKernel<Probe, 10>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
     layout::BoxWalk walk{layout::trace_depth(state.place), state.place.x, state.place.y, uvec4(0)};
@@ -27,7 +29,7 @@ class TraceBoxes : public TraceKernel<Probe, layout::BoxTracePush> {
       for (uint32_t budget = this->push_.budget; walk.depth != layout::walk_done && budget != 0; --budget) {
         const uint32_t list = visit(walk, box_ray, slabs.octant, ray.tmin, best.t);
         const bool entered = list >> 8 != 0;
-        if (entered && walk.depth + 1 != this->push_.depth) {
+        if (entered && walk.depth + 1 != object_.depth) {
           walk = layout::box_walk_down(walk, list);
           continue;
         }
@@ -47,7 +49,7 @@ class TraceBoxes : public TraceKernel<Probe, layout::BoxTracePush> {
  private:
   uint32_t visit(const layout::BoxWalk& walk, const layout::BoxRay& box_ray, uint32_t octant, float tmin,
                  float tmax) {
-    const uint64_t record = 3 * (uint64_t(layout::level_base(walk.depth)) + walk.index);
+    const uint64_t record = 3 * (uint64_t(object_.first_node) + layout::level_base(walk.depth) + walk.index);
     const uvec4 x = this->load(boxes_, record), y = this->load(boxes_, record + 1),
                 z = this->load(boxes_, record + 2);
     this->count_step(4);
@@ -55,19 +57,20 @@ class TraceBoxes : public TraceKernel<Probe, layout::BoxTracePush> {
   }
 
   void test_leaves(const layout::BoxWalk& walk, uint32_t list, const layout::Ray& ray,
-                   const layout::Slabs& slabs, const layout::Shear& shear, uint32_t passed,
+                   const layout::Slabs& slabs, const layout::Shear& shear, uint32_t next,
                    layout::Hit& best) {
     for (uint32_t i = 0; i < list >> 8; ++i) {
-      const uint64_t slot = 4 * uint64_t(walk.index) + (list >> 2 * i & 3u);
+      const uint64_t slot = object_.first_slot + 4 * uint64_t(walk.index) + (list >> 2 * i & 3u);
       const uint32_t texel = this->load(leaf_map_, 2 * slot), stride = this->load(leaf_map_, 2 * slot + 1);
-      this->test_quad(texel, stride, ray, slabs, shear, passed, best);
+      this->test_quad(texel, stride, ray, slabs, shear, next, best);
       if (this->any_hit() && best.primitive != layout::no_index) return;
     }
   }
 
+  layout::ObjectRecord object_{};
   Quads boxes_ = this->quads(6);
   Words leaf_map_ = this->words(7);
-  Structs<float> extent_ = this->template structs<float>(8);
+  Structs<float> extents_ = this->template structs<float>(8);
   Quads trails_ = this->quads(9);
 };
 

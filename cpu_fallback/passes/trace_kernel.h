@@ -4,12 +4,12 @@
 #pragma once
 
 #include "lodestone/cpu_fallback/passes/passes.h"
-#include "lodestone/layout/bounds.h"
-#include "lodestone/layout/trace.h"
+#include "lodestone/layout/objects.h"
 
 namespace lodestone::cpu_fallback {
 
-template <class Probe, class Push>
+// `objects` and `roots` come in these two slots.
+template <class Probe, size_t objects_slot>
 class TraceKernel : public Kernel<Probe> {
  public:
   using Kernel<Probe>::Kernel;
@@ -24,6 +24,14 @@ class TraceKernel : public Kernel<Probe> {
     const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)),
                      along = this->load(rays_, 2 * uint64_t(index) + 1);
     return layout::stored_ray(from, along);
+  }
+
+  // The object whose hierarchy the ray goes through.
+  uint32_t root(uint32_t index) { return instanced_ ? this->load(roots_, index) : 0; }
+  layout::ObjectRecord load_object(uint32_t object) {
+    const uint64_t first = 4 * uint64_t(object);
+    return layout::object_record(this->load(objects_, first), this->load(objects_, first + 1),
+                                 this->load(objects_, first + 2), this->load(objects_, first + 3));
   }
 
   // False: this ray has nothing to do in this dispatch.
@@ -58,17 +66,17 @@ class TraceKernel : public Kernel<Probe> {
   }
 
   void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Shear& shear,
-                 uint32_t passed, float enter, layout::Hit& best) {
+                 uint32_t next, float enter, layout::Hit& best) {
     layout::intersect_quad(as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
                            as_vec3(this->load(geometry_, texel + stride)),
-                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, passed, enter,
+                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, next, enter,
                            texel, best);
     this->probe.triangles(2);
   }
 
   // The same where the quad's own bound has not been asked yet.
   void test_quad(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Slabs& slabs,
-                 const layout::Shear& shear, uint32_t passed, layout::Hit& best) {
+                 const layout::Shear& shear, uint32_t next, layout::Hit& best) {
     const glm::vec3 a = as_vec3(this->load(geometry_, texel)), b = as_vec3(this->load(geometry_, texel + 1)),
                     c = as_vec3(this->load(geometry_, texel + stride)),
                     d = as_vec3(this->load(geometry_, texel + stride + 1));
@@ -76,31 +84,33 @@ class TraceKernel : public Kernel<Probe> {
     const layout::Bound bound = layout::quad_bound(a, b, c, d);
     const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
     if (!(enter <= layout::slab_exit(slabs, bound.lo, bound.hi, best.t))) return;
-    layout::intersect_quad(a, b, c, d, ray, shear, passed, enter, texel, best);
+    layout::intersect_quad(a, b, c, d, ray, shear, next, enter, texel, best);
   }
 
   bool any_hit() const { return any_hit_; }
 
   Quads rays_ = this->quads(0), geometry_ = this->quads(1), hits_ = this->quads(2), states_ = this->quads(3);
   Words steps_ = this->words(4), pending_ = this->words(5);
-  Push push_ = this->template push<Push>();
+  layout::TracePush push_ = this->template push<layout::TracePush>();
 
  private:
-  bool any_hit_ = this->constant(0) != 0;
+  Quads objects_ = this->quads(objects_slot);
+  Words roots_ = this->words(objects_slot + 1);
+  bool any_hit_ = this->constant(0) != 0, instanced_ = this->constant(2) != 0;
   uint32_t visits_ = 0;
 };
 
 // Those of single nodes: the hierarchy in 32 bits.
-template <class Probe>
-class NodesKernel : public TraceKernel<Probe, layout::TracePush> {
+template <class Probe, size_t objects_slot>
+class NodesKernel : public TraceKernel<Probe, objects_slot> {
  public:
-  using TraceKernel<Probe, layout::TracePush>::TraceKernel;
+  using TraceKernel<Probe, objects_slot>::TraceKernel;
 
  protected:
-  // The largest absolute coordinate of the root's bound.
-  float scene_extent() {
-    return layout::max2(layout::largest_abs(as_vec3(this->load(nodes_lo_, 0))),
-                        layout::largest_abs(as_vec3(this->load(nodes_hi_, 0))));
+  // The largest absolute coordinate of a hierarchy's bound.
+  float root_extent(uint32_t first_node) {
+    return layout::max2(layout::largest_abs(as_vec3(this->load(nodes_lo_, first_node))),
+                        layout::largest_abs(as_vec3(this->load(nodes_hi_, first_node))));
   }
 
   Quads nodes_lo_ = this->quads(6), nodes_hi_ = this->quads(7);

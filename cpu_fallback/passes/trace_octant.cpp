@@ -7,27 +7,28 @@ namespace {
 using glm::uvec4;
 
 template <class Probe>
-class TraceOctant : public NodesKernel<Probe> {
+class TraceOctant : public NodesKernel<Probe, 8> {
  public:
-  using NodesKernel<Probe>::NodesKernel;
+  using NodesKernel<Probe, 8>::NodesKernel;
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
-    const layout::Slabs slabs = layout::make_slabs(ray, extent_);
+    const layout::ObjectRecord object = this->load_object(this->root(index));
+    const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(object.first_node));
     const layout::Shear shear = layout::make_shear(ray);
-    typename NodesKernel<Probe>::State state;
+    typename NodesKernel<Probe, 8>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
     layout::Walk walk{layout::trace_depth(state.place), state.place.x, state.place.y};
     bool finished = ray.tmax < 0.0f;
     if (!finished) {
       for (uint32_t budget = this->push_.budget; budget != 0; --budget) {
-        const uint32_t address = layout::walk_address(walk);
+        const uint32_t address = object.first_node + layout::walk_address(walk);
         const uvec4 lo = this->load(this->nodes_lo_, address), hi = this->load(this->nodes_hi_, address);
         this->count_step();
         const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
         const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
-        if (inside && walk.depth != this->push_.depth) {
+        if (inside && walk.depth != object.depth) {
           walk = layout::walk_down(walk, (lo.w >> (2 * slabs.octant)) & 3u);
           continue;
         }
@@ -42,9 +43,6 @@ class TraceOctant : public NodesKernel<Probe> {
     state.place = uvec4(walk.order, walk.turns, 4 * walk.depth + status, state.place.w);
     this->end_ray(index, state);
   }
-
- private:
-  float extent_ = this->scene_extent();
 };
 
 LODESTONE_BLOCK_FUNCTION(static, trace_octant, TraceOctant)

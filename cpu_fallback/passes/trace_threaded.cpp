@@ -7,23 +7,24 @@ namespace {
 using glm::uvec4;
 
 template <class Probe>
-class TraceThreaded : public NodesKernel<Probe> {
+class TraceThreaded : public NodesKernel<Probe, 9> {
  public:
-  using NodesKernel<Probe>::NodesKernel;
+  using NodesKernel<Probe, 9>::NodesKernel;
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
-    const layout::Slabs slabs = layout::make_slabs(ray, extent_);
+    const uint32_t first_node = this->load_object(this->root(index)).first_node;
+    const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(first_node));
     const layout::Shear shear = layout::make_shear(ray);
-    typename NodesKernel<Probe>::State state;
+    typename NodesKernel<Probe, 9>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
     uint32_t link = state.place.x;
     if (!(ray.tmax < 0.0f)) {
       for (uint32_t budget = this->push_.budget; budget != 0; --budget) {
-        const uvec4 lo = this->load(this->nodes_lo_, link), hi = this->load(this->nodes_hi_, link);
-        const uint32_t hit = this->load(links_, 2 * uint64_t(link));
-        const uint32_t miss = this->load(links_, 2 * uint64_t(link) + 1);
+        const uint64_t address = uint64_t(first_node) + link;
+        const uvec4 lo = this->load(this->nodes_lo_, address), hi = this->load(this->nodes_hi_, address);
+        const uint32_t hit = this->load(links_, 2 * address), miss = this->load(links_, 2 * address + 1);
         this->count_step();
         const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
         const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
@@ -43,7 +44,6 @@ class TraceThreaded : public NodesKernel<Probe> {
 
  private:
   Words links_ = this->words(8);
-  float extent_ = this->scene_extent();
 };
 
 LODESTONE_BLOCK_FUNCTION(static, trace_threaded, TraceThreaded)

@@ -79,9 +79,10 @@ HWY_EXPORT(quantise);
 void wide_nodes(const CpuDispatch& dispatch) {
   layout::BoundsPush push;
   std::memcpy(&push, dispatch.push.data(), sizeof(push));
-  const auto* nodes_lo = reinterpret_cast<const float*>(dispatch.buffers[0]);
-  const auto* nodes_hi = reinterpret_cast<const float*>(dispatch.buffers[1]);
-  auto* records = reinterpret_cast<WideNode*>(dispatch.buffers[2]);
+  const uint64_t root = 4 * uint64_t(push.first_node);
+  const auto* nodes_lo = reinterpret_cast<const float*>(dispatch.buffers[0]) + root;
+  const auto* nodes_hi = reinterpret_cast<const float*>(dispatch.buffers[1]) + root;
+  auto* records = reinterpret_cast<WideNode*>(dispatch.buffers[2]) + push.first_wide;
   const WideGrid grid({nodes_lo[0], nodes_lo[1], nodes_lo[2]}, {nodes_hi[0], nodes_hi[1], nodes_hi[2]});
   const render::WideLevels levels(push.depth, push.count);
   const auto quantise_records = HWY_DYNAMIC_DISPATCH(quantise);

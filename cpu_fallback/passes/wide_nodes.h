@@ -30,7 +30,7 @@ static_assert(sizeof(WideNode) == render::wide_node_bytes);
 struct WideGrid {
   glm::vec4 base, step{0, 0, 0, 0};  // w: 0
 
-  // `root`: bound of the whole scene. A flat axis gets a thousandth of the largest one, so that an empty
+  // `lo`, `hi`: bound of the whole hierarchy. A flat axis gets a thousandth of the largest one, so that an empty
   // child, whose low plane is 65535 and whose high plane is 0, is empty along every axis.
   WideGrid(const glm::vec3& lo, const glm::vec3& hi) : base(lo, 0) {
     const glm::vec3 size = hi - lo;
@@ -41,7 +41,8 @@ struct WideGrid {
   }
 };
 
-// The pass: all records, from nodes_lo and nodes_hi (layout::BoundsPush: depth, and count: leaf slots).
+// The pass: all records of one hierarchy, from nodes_lo and nodes_hi (layout::BoundsPush: depth, count: leaf
+// slots, and where it begins).
 void wide_nodes(const CpuDispatch& dispatch);
 
 }  // namespace lodestone::cpu_fallback

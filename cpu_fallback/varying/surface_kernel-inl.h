@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The buffers that layout/surface.h reads, slots 0 to 15 of `mask`, `shade` and `aov`, and that header
-// itself. Included once a SIMD target.
+// The buffers that layout/surface.h reads, slots 0 to 17 of `mask`, `shade`, `aov` and their like, and that
+// header itself. Included once a SIMD target.
 
 #if defined(LODESTONE_SURFACE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LODESTONE_SURFACE_KERNEL_INL_H_
@@ -71,6 +71,9 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Structs<MaterialRecord> materials = this->template structs<MaterialRecord>(13);
   Structs<TextureRecord> textures = this->template structs<TextureRecord>(14);
   Structs<FrameRecord> frames = this->template structs<FrameRecord>(15);
+  Words hit_instances = this->words(16);
+  Quads instances = this->quads(17);
+  uint32_t instanced = this->constant(4);
 
   static constexpr uint32_t sources = source_count, layered = is_layered ? 1 : 0;
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)
@@ -83,11 +86,17 @@ class SurfaceKernel : public VaryingKernel<Probe> {
 #undef WHERE
 #undef SET
 
+  // The instances in which the active invocations' rays have hit something.
+  HWY_ATTR uvec1 placed_by() {
+    if (instanced == 0) return 0u;
+    return select(this->active(), this->load(hit_instances, this->own_index()), 0u);
+  }
+
   // Of the active invocations' hits.
   HWY_ATTR SurfacePoint locate_hit(const uvec4& hit) {
     // Nothing absurd where nothing was hit: it would take the slow way of divisions.
     const uvec1 primitive = select(this->active(), hit.w, 0u);
-    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by());
   }
 
   // Calls body(part, material) for each part that invocations have hit, with those active that have hit it.

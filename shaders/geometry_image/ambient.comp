@@ -5,11 +5,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
 
-QUADS(16, readonly, rays);
-QUADS(17, writeonly, contributions);
-QUADS(18, writeonly, shadow_rays);
-QUADS(19, restrict, radiance);
-COUNTERS(20)
+QUADS(18, readonly, rays);
+QUADS(19, writeonly, contributions);
+QUADS(20, writeonly, shadow_rays);
+QUADS(21, restrict, radiance);
+COUNTERS(22)
 PUSH(AmbientPush, push);
 
 void main() {
@@ -25,7 +25,7 @@ void main() {
   uvec4 contribution = uvec4(0u);
   Ray shadow = no_ray();
   if (hit.w != no_index) {
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);

@@ -31,6 +31,7 @@ vec4 weighted_row(uint matrix, uint row, float weight) {
 void main() {
   uint vertex = invocation();
   if (vertex >= push.vertices) return;
+  vertex += push.first;
   uvec4 range;
   uvec4 position_bits;
   uvec4 normal_bits;

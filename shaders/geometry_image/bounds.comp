@@ -16,8 +16,9 @@ Bound load_bound(uint index) {
   if (index < push.count) {
     uvec4 lo;
     uvec4 hi;
-    LOAD4(lo, nodes_lo, level_base(push.depth) + index);
-    LOAD4(hi, nodes_hi, level_base(push.depth) + index);
+    uint address = push.first_node + level_base(push.depth) + index;
+    LOAD4(lo, nodes_lo, address);
+    LOAD4(hi, nodes_hi, address);
     bound.lo = as_vec3(lo);
     bound.hi = as_vec3(hi);
   }
@@ -31,7 +32,7 @@ Bound bound_parent(uint index) {
   Bound c3 = load_bound(4u * index + 3u);
   Bound parent = join(join(c0, c1), join(c2, c3));
   if (index < push.written) {
-    uint address = level_base(push.depth - 1u) + index;
+    uint address = push.first_node + level_base(push.depth - 1u) + index;
     STORE4(nodes_lo, address, as_bits(parent.lo, child_order(c0, c1, c2, c3)));
     STORE4(nodes_hi, address, as_bits(parent.hi, 0u));
   }
@@ -48,7 +49,7 @@ void main() {
     Bound p2 = bound_parent(4u * index + 2u);
     Bound p3 = bound_parent(4u * index + 3u);
     Bound above = join(join(p0, p1), join(p2, p3));
-    uint address = level_base(push.depth - 2u) + index;
+    uint address = push.first_node + level_base(push.depth - 2u) + index;
     STORE4(nodes_lo, address, as_bits(above.lo, child_order(p0, p1, p2, p3)));
     STORE4(nodes_hi, address, as_bits(above.hi, 0u));
   }

@@ -18,8 +18,8 @@ Bound bound_leaf(uint slot) {
   uint texel = empty_slot;
   uint stride = 0u;
   if (slot < push.count) {
-    LOAD1(texel, leaf_map, 2u * slot);
-    LOAD1(stride, leaf_map, 2u * slot + 1u);
+    LOAD1(texel, leaf_map, 2u * (push.first_slot + slot));
+    LOAD1(stride, leaf_map, 2u * (push.first_slot + slot) + 1u);
   }
   if (texel != empty_slot) {
     uvec4 a;
@@ -33,7 +33,7 @@ Bound bound_leaf(uint slot) {
     bound = quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
   }
   if (slot < push.written) {
-    uint address = level_base(push.depth) + slot;
+    uint address = push.first_node + level_base(push.depth) + slot;
     STORE4(nodes_lo, address, as_bits(bound.lo, leaf_flag | texel));
     STORE4(nodes_hi, address, as_bits(bound.hi, stride));
   }
@@ -48,7 +48,7 @@ void main() {
   Bound c2 = bound_leaf(4u * index + 2u);
   Bound c3 = bound_leaf(4u * index + 3u);
   Bound parent = join(join(c0, c1), join(c2, c3));
-  uint address = level_base(push.depth - 1u) + index;
+  uint address = push.first_node + level_base(push.depth - 1u) + index;
   STORE4(nodes_lo, address, as_bits(parent.lo, child_order(c0, c1, c2, c3)));
   STORE4(nodes_hi, address, as_bits(parent.hi, 0u));
   flush_counters();

@@ -14,7 +14,7 @@ PUSH(BoxesPush, push);
 Box load_box(uint index) {
   Box box = empty_box();
   if (index < push.count) {
-    uint record = 3u * (level_base(push.depth) + index);
+    uint record = 3u * (push.first_node + level_base(push.depth) + index);
     uvec4 x;
     uvec4 y;
     uvec4 z;

@@ -9,7 +9,7 @@
 QUADS(0, readonly, blocks);  // see LeafBlocks
 QUADS(1, readonly, geometry);
 QUADS(2, writeonly, boxes);
-STRUCTS(3, restrict, uint, extent);  // float bits, which order like integers
+STRUCTS(3, restrict, uint, extents);  // one an object: float bits, which order like integers
 COUNTERS(4)
 PUSH(BoxesPush, push);
 
@@ -75,7 +75,7 @@ void main() {
   if (index >= push.count) return;
   per_step = vec3(1.0 / push.grid.step.x, 1.0 / push.grid.step.y, 1.0 / push.grid.step.z);
   uvec4 block;
-  LOAD4(block, blocks, index);
+  LOAD4(block, blocks, push.first_item + index);
   uint stride = block.z;
   uint w = block.w & 255u;
   uint h = block.w >> 8u;
@@ -105,6 +105,6 @@ void main() {
   Box p2 = store_children(4u * block.x + 2u, b02, b12, b03, b13);
   Box p3 = store_children(4u * block.x + 3u, b22, b32, b23, b33);
   store_record(push.depth - 2u, block.x, p0, p1, p2, p3);
-  if (floatBitsToUint(reach) > extent[0]) atomicMax(extent[0], floatBitsToUint(reach));
+  if (floatBitsToUint(reach) > extents[push.object]) atomicMax(extents[push.object], floatBitsToUint(reach));
   flush_counters();
 }

@@ -8,7 +8,7 @@
 WORDS(0, readonly, leaf_map);
 QUADS(1, readonly, geometry);
 QUADS(2, writeonly, boxes);
-STRUCTS(3, restrict, uint, extent);  // float bits, which order like integers
+STRUCTS(3, restrict, uint, extents);  // one an object: float bits, which order like integers
 WORDS(4, readonly, groups);          // of sixteen slots: those that boxes_blocks leaves
 COUNTERS(5)
 PUSH(BoxesPush, push);
@@ -21,8 +21,8 @@ Box bound_leaf(uint slot, vec3 per_step) {
   uint texel = empty_slot;
   uint stride = 0u;
   if (slot < push.count) {
-    LOAD1(texel, leaf_map, 2u * slot);
-    LOAD1(stride, leaf_map, 2u * slot + 1u);
+    LOAD1(texel, leaf_map, 2u * (push.first_slot + slot));
+    LOAD1(stride, leaf_map, 2u * (push.first_slot + slot) + 1u);
   }
   Box box = empty_box();
   if (texel != empty_slot) {
@@ -57,7 +57,7 @@ void main() {
     if (index < push.written) bound_record(index, per_step);
   } else if (index < push.written_above) {
     uint group;
-    LOAD1(group, groups, index);
+    LOAD1(group, groups, push.first_item + index);
     Box p0 = bound_record(4u * group, per_step);
     Box p1 = bound_record(4u * group + 1u, per_step);
     Box p2 = bound_record(4u * group + 2u, per_step);
@@ -65,6 +65,6 @@ void main() {
     store_record(push.depth - 2u, group, p0, p1, p2, p3);
   }
   // Few invocations raise it: most would wait for each other in vain.
-  if (floatBitsToUint(reach) > extent[0]) atomicMax(extent[0], floatBitsToUint(reach));
+  if (floatBitsToUint(reach) > extents[push.object]) atomicMax(extents[push.object], floatBitsToUint(reach));
   flush_counters();
 }

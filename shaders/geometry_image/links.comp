@@ -19,10 +19,10 @@ void main() {
   uint hit = 4u * address + 1u;
   if (push.depth == push.leaf_depth) {
     uint texel;
-    LOAD1(texel, leaf_map, 2u * index);
+    LOAD1(texel, leaf_map, 2u * (push.first_slot + index));
     hit = leaf_flag | texel;
   }
-  STORE1(links, 2u * address, hit);
+  STORE1(links, 2u * (push.first_node + address), hit);
 
   // Skip siblings that hold no quad at all; on the leaves' level every empty slot.
   uint depth = push.depth;
@@ -39,14 +39,14 @@ void main() {
     }
     if (!finished && level == push.leaf_depth) {
       uint texel;
-      LOAD1(texel, leaf_map, 2u * place);
+      LOAD1(texel, leaf_map, 2u * (push.first_slot + place));
       if (texel == empty_slot) {
         searching = true;
         next = place + 1u;
         depth = level;
       }
     }
-    if (!searching) STORE1(links, 2u * address + 1u, finished ? 0u : level_base(level) + place);
+    if (!searching) STORE1(links, 2u * (push.first_node + address) + 1u, finished ? 0u : level_base(level) + place);
   }
   flush_counters();
 }

@@ -5,14 +5,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
 
-QUADS(16, restrict, rays);
-QUADS(17, restrict, states);
-STRUCTS(18, restrict, uint, pending);
-COUNTERS(19)
+QUADS(18, restrict, rays);
+QUADS(19, restrict, states);
+STRUCTS(20, restrict, uint, pending);
+COUNTERS(21)
 PUSH(CountPush, push);
 
-bool is_cut_out(uvec4 hit) {
-  SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z));
+bool is_cut_out(uint index, uvec4 hit) {
+  SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
   MaterialRecord material = materials[parts[point.part].material];
   count_read(24u);
   if (material.alpha_mask == 0u) return false;
@@ -28,12 +28,12 @@ void main() {
     uvec4 state;
     LOAD4(state, states, index);
     if (trace_status(state) != trace_judged) {
-      if (is_cut_out(hit)) {
+      if (is_cut_out(index, hit)) {
         uvec4 from;
         LOAD4(from, rays, 2u * index);
         from.w = hit.x;
         STORE4(rays, 2u * index, from);
-        STORE4(states, index, uvec4(0u, 0u, trace_restart, hit.w));
+        STORE4(states, index, uvec4(0u, placed_by(index), trace_restart, hit.w + 1u));
         atomicAdd(pending[0], 1u);
       } else {
         STORE4(states, index, uvec4(0u, 0u, trace_judged, no_index));

@@ -15,11 +15,12 @@ QUADS(3, readonly, normals);
 QUADS(4, writeonly, geometry);
 QUADS(5, writeonly, normal_map);
 COUNTERS(6)
-PUSH(CountPush, push);
+PUSH(RangePush, push);
 
 void main() {
   uint texel = invocation();
   if (texel >= push.count) return;
+  texel += push.first;
   uvec4 source;
   LOAD4(source, texel_map, texel);
   uvec4 point = uvec4(0u);

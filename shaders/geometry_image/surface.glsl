@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The buffers that surface.h reads: slots 0 to 15 of `mask`, `shade` and `aov`.
+// The buffers that surface.h reads: slots 0 to 17 of `mask`, `shade`, `aov` and their like.
 #include "kernel.glsl"
 #include "layout/shading.h"
-#include "layout/trace.h"
+#include "layout/objects.h"
 
 QUADS(0, readonly, hits);
 QUADS(1, readonly, geometry);
@@ -20,10 +20,20 @@ STRUCTS(12, readonly, PartRecord, parts);
 STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
+WORDS(16, readonly, hit_instances);
+QUADS(17, readonly, instances);
 
 layout(constant_id = 2) const uint sources = 1u;
 layout(constant_id = 3) const uint layered = 0u;
+layout(constant_id = 6) const uint instanced = 0u;
 
 #define WHERE(condition) if (condition)
 #define SET(variable, value) variable = value
 #include "layout/surface.h"
+
+// The instance in which ray `index` has hit something.
+uint placed_by(uint index) {
+  uint instance = 0u;
+  if (instanced != 0u) LOAD1(instance, hit_instances, index);
+  return instance;
+}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the traversals share: a ray, its hit, and its state from dispatch to dispatch. Before this come their own
-// buffers, push constants and counters.
-#include "layout/bounds.h"
+// What the traversals share: a ray, the object whose hierarchy it goes through, its hit, and its state from dispatch to
+// dispatch. Before this come their own buffers, `objects` and `roots` among them, push constants and counters.
+#include "layout/objects.h"
 
 QUADS(0, readonly, rays);  // two a ray: origin and tmin, direction and tmax
 QUADS(1, readonly, geometry);
@@ -12,6 +12,7 @@ STRUCTS(5, restrict, uint, pending);  // rays that need another dispatch
 
 layout(constant_id = 2) const uint any_hit = 0u;  // 1: stop at the first hit found; hits say only whether
 layout(constant_id = 3) const uint write_steps = 0u;
+layout(constant_id = 4) const uint instanced = 0u;  // 1: of each ray, `roots` says which object; 0: all of the first
 
 uint node_visits = 0u;
 uint triangle_tests = 0u;
@@ -25,6 +26,20 @@ Ray load_ray(uint index) {
   return stored_ray(from, along);
 }
 
+ObjectRecord load_object(uint index) {
+  uint object = 0u;
+  if (instanced != 0u) LOAD1(object, roots, index);
+  uvec4 a;
+  uvec4 b;
+  uvec4 c;
+  uvec4 d;
+  LOAD4(a, objects, 4u * object);
+  LOAD4(b, objects, 4u * object + 1u);
+  LOAD4(c, objects, 4u * object + 2u);
+  LOAD4(d, objects, 4u * object + 3u);
+  return object_record(a, b, c, d);
+}
+
 uint boxes_a_step = 1u;
 
 void count_step() {
@@ -32,7 +47,7 @@ void count_step() {
   if (counting != 0u && subgroupElect()) subgroup_steps += gl_SubgroupSize;
 }
 
-void test_leaf(uint texel, uint stride, Ray ray, Shear shear, uint passed, float enter, inout Hit best) {
+void test_leaf(uint texel, uint stride, Ray ray, Shear shear, uint next, float enter, inout Hit best) {
   uvec4 a;
   uvec4 b;
   uvec4 c;
@@ -41,12 +56,12 @@ void test_leaf(uint texel, uint stride, Ray ray, Shear shear, uint passed, float
   LOAD4(b, geometry, texel + 1u);
   LOAD4(c, geometry, texel + stride);
   LOAD4(d, geometry, texel + stride + 1u);
-  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, passed, enter, texel, best);
+  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, next, enter, texel, best);
   triangle_tests += 2u;
 }
 
 // The same where the quad's own bound has not been asked yet.
-void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint passed, inout Hit best) {
+void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, inout Hit best) {
   uvec4 a;
   uvec4 b;
   uvec4 c;
@@ -58,7 +73,7 @@ void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint 
   Bound bound = quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
   float enter = slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
   if (enter <= slab_exit(slabs, bound.lo, bound.hi, best.t)) {
-    intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, passed, enter, texel, best);
+    intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, next, enter, texel, best);
   }
   triangle_tests += 2u;
 }

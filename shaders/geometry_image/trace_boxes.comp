@@ -10,10 +10,12 @@
 
 QUADS(6, readonly, boxes);
 WORDS(7, readonly, leaf_map);
-STRUCTS(8, readonly, float, extent);
+STRUCTS(8, readonly, float, extents);
 QUADS(9, restrict, trails);
-COUNTERS(10)
-PUSH(BoxTracePush, push);
+QUADS(10, readonly, objects);
+WORDS(11, readonly, roots);
+COUNTERS(12)
+PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
 
@@ -22,9 +24,12 @@ void main() {
   if (index >= push.rays) return;
   boxes_a_step = 4u;
   Ray ray = load_ray(index);
-  Slabs slabs = make_slabs(ray, extent[0]);
+  ObjectRecord object = load_object(index);
+  uint root = 0u;
+  if (instanced != 0u) LOAD1(root, roots, index);
+  Slabs slabs = make_slabs(ray, extents[root]);
   Shear shear = make_shear(ray);
-  BoxRay box_ray = make_box_ray(slabs, push.grid);
+  BoxRay box_ray = make_box_ray(slabs, object_grid(object));
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) {
@@ -43,7 +48,7 @@ void main() {
   while (walking) {
     uint leaves = 0u;
     while (walking && leaves == 0u) {
-      uint record = 3u * (level_base(walk.depth) + walk.index);
+      uint record = 3u * (object.first_node + level_base(walk.depth) + walk.index);
       uvec4 x;
       uvec4 y;
       uvec4 z;
@@ -53,7 +58,7 @@ void main() {
       count_step();
       uint list = box_list(box_keys(x, y, z, box_ray, slabs.octant, ray.tmin, best.t));
       bool entered = (list >> 8u) != 0u;
-      if (entered && walk.depth + 1u == push.depth) {
+      if (entered && walk.depth + 1u == object.depth) {
         leaves = list;
       } else {
         if (entered) {
@@ -67,7 +72,7 @@ void main() {
     }
     bool at_leaf = leaves != 0u;
     while (at_leaf) {
-      uint slot = 4u * walk.index + (leaves & 3u);
+      uint slot = object.first_slot + 4u * walk.index + (leaves & 3u);
       uint texel;
       uint stride;
       LOAD1(texel, leaf_map, 2u * slot);

@@ -6,7 +6,9 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #include "kernel.glsl"
 
-COUNTERS(8)
+QUADS(8, readonly, objects);
+WORDS(9, readonly, roots);
+COUNTERS(10)
 
 #include "geometry_image/trace_nodes.glsl"
 
@@ -14,7 +16,8 @@ void main() {
   uint index = invocation();
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
-  Slabs slabs = make_slabs(ray, scene_extent());
+  ObjectRecord object = load_object(index);
+  Slabs slabs = make_slabs(ray, root_extent(object.first_node));
   Shear shear = make_shear(ray);
   Hit best;
   uvec4 state;
@@ -36,7 +39,7 @@ void main() {
     uint texel = 0u;
     uint stride = 0u;
     while (walking && !at_leaf) {
-      uint address = walk_address(walk);
+      uint address = object.first_node + walk_address(walk);
       uvec4 lo;
       uvec4 hi;
       LOAD4(lo, nodes_lo, address);
@@ -44,7 +47,7 @@ void main() {
       count_step();
       enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
       bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
-      at_leaf = inside && walk.depth == push.depth;
+      at_leaf = inside && walk.depth == object.depth;
       texel = lo.w & ~leaf_flag;
       stride = hi.w;
       if (!at_leaf) {

@@ -6,7 +6,9 @@
 #include "kernel.glsl"
 
 WORDS(8, readonly, links);
-COUNTERS(9)
+QUADS(9, readonly, objects);
+WORDS(10, readonly, roots);
+COUNTERS(11)
 
 #include "geometry_image/trace_nodes.glsl"
 
@@ -14,7 +16,8 @@ void main() {
   uint index = invocation();
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
-  Slabs slabs = make_slabs(ray, scene_extent());
+  uint first_node = load_object(index).first_node;
+  Slabs slabs = make_slabs(ray, root_extent(first_node));
   Shear shear = make_shear(ray);
   Hit best;
   uvec4 state;
@@ -37,10 +40,10 @@ void main() {
       uvec4 lo;
       uvec4 hi;
       uint hit;
-      LOAD4(lo, nodes_lo, link);
-      LOAD4(hi, nodes_hi, link);
-      LOAD1(hit, links, 2u * link);
-      LOAD1(miss, links, 2u * link + 1u);
+      LOAD4(lo, nodes_lo, first_node + link);
+      LOAD4(hi, nodes_hi, first_node + link);
+      LOAD1(hit, links, 2u * (first_node + link));
+      LOAD1(miss, links, 2u * (first_node + link) + 1u);
       count_step();
       enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
       bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);

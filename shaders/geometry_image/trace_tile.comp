@@ -13,9 +13,11 @@
 
 QUADS(6, readonly, boxes);
 QUADS(7, readonly, leaf_map);  // two slots a quad
-STRUCTS(8, readonly, float, extent);
-COUNTERS(9)
-PUSH(BoxTracePush, push);
+STRUCTS(8, readonly, float, extents);
+QUADS(9, readonly, objects);
+WORDS(10, readonly, roots);
+COUNTERS(11)
+PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
 
@@ -55,6 +57,7 @@ vec3 corner_of(vec3 v, uint from) {
   return vec3(subgroupShuffle(v.x, from), subgroupShuffle(v.y, from), subgroupShuffle(v.z, from));
 }
 
+ObjectRecord object;  // the only one
 // What the rays share that go together.
 vec3 origin;
 float tmin;
@@ -89,7 +92,7 @@ void activate(inout Group group, uint first) {
   uint index = first + lane;
   uint last = push.rays - 1u;
   Ray ray = load_ray(index < push.rays ? index : last);
-  Slabs slabs = make_slabs(ray, extent[0]);
+  Slabs slabs = make_slabs(ray, extents[0]);
   group.inverse = slabs.inverse;
   group.shear = make_shear(ray);
   bool alike = ray.origin.x == origin.x && ray.origin.y == origin.y && ray.origin.z == origin.z && ray.tmin == tmin &&
@@ -185,6 +188,7 @@ uint first_waiting(uint found, Group group, uint number) {
 void main() {
   uint first = tile_rays * (invocation() / tile_lanes);
   if (first >= push.rays) return;
+  object = load_object(first);
 #define BEGIN(i) Group group##i = first_group(first + tile_lanes * uint(i));
   EACH_GROUP(BEGIN)
   uint lead = 0u;  // the first ray that waits
@@ -192,12 +196,12 @@ void main() {
   uint limit = left;
   for (uint kind = 0u; kind < tile_kinds && lead < tile_rays && left - 1u < limit; ++kind) {
     Ray lead_ray = load_ray(first + lead);  // the same for all lanes
-    common_slabs = make_slabs(lead_ray, extent[0]);
+    common_slabs = make_slabs(lead_ray, extents[0]);
     origin = lead_ray.origin;
     tmin = lead_ray.tmin;
     octant = common_slabs.octant;
     axis = make_shear(lead_ray).axis;
-    axes = make_tile_axes(common_slabs, push.grid);
+    axes = make_tile_axes(common_slabs, object_grid(object));
 #define ACTIVATE(i) activate(group##i, first + tile_lanes * uint(i));
     EACH_GROUP(ACTIVATE)
     Cone cone = join_cones(join_cones(join_cones(group0.cone, group1.cone), join_cones(group2.cone, group3.cone)),
@@ -224,7 +228,7 @@ void main() {
         even = even == nearest ? box_missed : even;
         odd = odd == nearest ? box_missed : odd;
         record_node = exhausted ? 0u : (node << 4u) | (nearest & 15u);
-        uint level = tile_first_level(push.depth) + 2u * height;  // of the 16 children
+        uint level = tile_first_level(object.depth) + 2u * height;  // of the 16 children
         // Four records side by side; of an odd tree's root, one.
         uint part = level == 1u ? 0u : lane >> 1u;
         uint record = 3u * (level_base(level - 1u) + (level == 1u ? 0u : 4u * record_node) + part);
@@ -252,7 +256,7 @@ void main() {
         }
         uint even_key = tile_key(even_box, cone, tmin, tmax, 2u * lane);
         uint odd_key = tile_key(odd_box, cone, tmin, tmax, 2u * lane + 1u);
-        at_leaves = !exhausted && level == push.depth;
+        at_leaves = !exhausted && level == object.depth;
         if (exhausted) {
           even = even1; even1 = even2; even2 = even3; even3 = even4; even4 = even5; even5 = even6;
           odd = odd1; odd1 = odd2; odd2 = odd3; odd3 = odd4; odd4 = odd5; odd5 = odd6;

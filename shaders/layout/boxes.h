@@ -28,14 +28,10 @@ struct BoxesPush {
   uint written;        // records of the next level to write ...
   uint written_above;  // ... and of the one above that
   BoxGrid grid;
-};
-
-struct BoxTracePush {
-  uint rays;
-  uint depth;   // of the leaves
-  uint resume;  // as TracePush has it
-  uint budget;  // steps of a ray in this dispatch. There are up to four loop iterations a step.
-  BoxGrid grid;
+  uint first_node;  // the hierarchy's first record
+  uint first_slot;
+  uint first_item;  // of its blocks, or groups
+  uint object;
 };
 
 CONST uint box_last_plane = 65535u;

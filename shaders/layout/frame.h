@@ -103,6 +103,18 @@ struct TextureRecord {
   float pad2;
 };
 
+// Where an object is in the world (layout/objects.h): seven quads.
+CONST uint instance_quads = 7u;
+struct InstanceRecord {
+  vec4 to_object[3];  // rows of a 3 x 4 matrix
+  vec4 to_world[3];
+  uint object;
+  uint node;       // of the scene; no_index: none
+  float rounding;  // by how much rounding may grow on the way through both matrices, at least 1; negative: the
+                   // matrix has no inverse, and the instance is not seen
+  uint pad0;
+};
+
 struct PartRecord {
   uint material;
   uint mesh;
@@ -165,6 +177,7 @@ struct ResolvePush {
 };
 
 struct BlendPush {
+  uint first;
   uint vertices;
   uint tangents;  // 1: there are some
 };
@@ -173,11 +186,18 @@ struct CountPush {
   uint count;
 };
 
+struct RangePush {
+  uint first;
+  uint count;
+};
 struct BoundsPush {
   uint depth;          // of the nodes that are read: the leaves, or a level above
   uint count;          // places on that level that may be read
   uint written;        // places of the next level to write ...
   uint written_above;  // ... and of the one above that
+  uint first_node;     // of the hierarchy
+  uint first_slot;
+  uint first_wide;
 };
 
 FN uint tile_count(uint size) {

@@ -3,8 +3,9 @@
 // Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
 // those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
 // in both. So do two numbers that are the same in the whole dispatch: `sources`, 3 where the atlas has mapped
-// charts, else 1; and `layered`, 1 where a material may reflect in another way than metallic-roughness says,
-// be transparent or coated. Where that is 0 the Surface is a plain one whatever the material says.
+// charts, else 1; `layered`, 1 where a material may reflect in another way than metallic-roughness says, be
+// transparent or coated (where that is 0 the Surface is a plain one whatever the material says); and
+// `instanced`, 1 where an instance puts what was hit into the world (layout/objects.h).
 
 // A point of the input, and its share in what is found at a hit.
 struct SurfaceSource {
@@ -24,7 +25,40 @@ struct SurfacePoint {
   vec3 corner[3];           // their positions
   SurfaceSource source[3];  // those from `sources` on are not set
   uvec1 part;               // of the first source
+  vec4 to_world[3];         // rows of the instance's matrix; not set without instances
+  vec1 rounding;            // InstanceRecord::rounding
 };
+
+FN vec3 placed_direction(IN(SurfacePoint) point, vec3 d) {
+  return vec3(
+      point.to_world[0].x * d.x + point.to_world[0].y * d.y + point.to_world[0].z * d.z,
+      point.to_world[1].x * d.x + point.to_world[1].y * d.y + point.to_world[1].z * d.z,
+      point.to_world[2].x * d.x + point.to_world[2].y * d.y + point.to_world[2].z * d.z);
+}
+FN vec3 placed_point(IN(SurfacePoint) point, vec3 p) {
+  return vec3(point.to_world[0].x * p.x + point.to_world[0].y * p.y + point.to_world[0].z * p.z +
+                  point.to_world[0].w,
+              point.to_world[1].x * p.x + point.to_world[1].y * p.y + point.to_world[1].z * p.z +
+                  point.to_world[1].w,
+              point.to_world[2].x * p.x + point.to_world[2].y * p.y + point.to_world[2].z * p.z +
+                  point.to_world[2].w);
+}
+FN vec3 linear_row(vec4 row) {
+  return vec3(row.x, row.y, row.z);
+}
+FN bvec1 is_mirrored(IN(SurfacePoint) point) {
+  vec3 cofactors = cross3(linear_row(point.to_world[1]), linear_row(point.to_world[2]));
+  return dot3(linear_row(point.to_world[0]), cofactors) < 0.0f;
+}
+// As `blend` turns normals.
+FN vec3 placed_normal(IN(SurfacePoint) point, vec3 normal) {
+  vec3 r0 = linear_row(point.to_world[0]);
+  vec3 r1 = linear_row(point.to_world[1]);
+  vec3 r2 = linear_row(point.to_world[2]);
+  vec3 turned =
+      vec3(dot3(cross3(r1, r2), normal), dot3(cross3(r2, r0), normal), dot3(cross3(r0, r1), normal));
+  return select(is_mirrored(point), turned * -1.0f, turned);
+}
 
 // Its vertices, and returns its part.
 FN uvec1 find_vertices(INOUT(SurfaceSource) source) {
@@ -51,7 +85,7 @@ FN void put_greater_first(INOUT(SurfaceSource) first, INOUT(SurfaceSource) secon
   second.share = select(swap, rest.z, second.share);
 }
 
-FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v) {
+FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance) {
   SurfacePoint point;
   uvec1 texel = primitive >> 1u;
   bvec1 first_half = (primitive & 1u) == 0u;
@@ -71,6 +105,16 @@ FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v) {
   for (int i = 0; i < 3; ++i) {
     LOAD4(bits, geometry, point.texel[i]);
     point.corner[i] = as_vec3(bits);
+  }
+  point.rounding = 1.0f;
+  if (instanced != 0u) {
+    for (int i = 0; i < 3; ++i) {
+      LOAD4(bits, instances, instance_quads * instance + uint(3 + i));
+      point.to_world[i] = as_vec4(bits);
+    }
+    LOAD4(bits, instances, instance_quads * instance + 6u);
+    point.rounding = uintBitsToFloat(bits.z);
+    for (int i = 0; i < 3; ++i) point.corner[i] = placed_point(point, point.corner[i]);
   }
   // On a grid the place in the chart says which triangle it is, else the texel map.
   point.source[0].triangle = chart.first_triangle;
@@ -215,6 +259,10 @@ FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
     sum = add_share(sum, tangent_of(point.source[k]), point.source[k].share);
   vec3 own = vec3(sum.x, sum.y, sum.z);
   vec4 tangent = vec4(own.x, own.y, own.z, first.w);
+  if (instanced != 0u) {
+    vec3 along = placed_direction(point, own);
+    tangent = vec4(along.x, along.y, along.z, select(is_mirrored(point), first.w * -1.0f, first.w));
+  }
   WHERE(!(dot3(own, own) > 1e-12f)) {
     uvec4 t0;
     uvec4 t1;
@@ -234,6 +282,10 @@ FN vec4 tangent_at(IN(SurfacePoint) point, uint set, vec3 normal) {
     LOAD4(p2, positions, point.source[0].vertex[2]);
     vec3 e1 = as_vec3(p1) - as_vec3(p0);
     vec3 e2 = as_vec3(p2) - as_vec3(p0);
+    if (instanced != 0u) {
+      e1 = placed_direction(point, e1);
+      e2 = placed_direction(point, e2);
+    }
     vec1 area = uv1.x * uv2.y - uv1.y * uv2.x;
     vec3 along = e1 * uv2.y - e2 * uv1.y;
     vec3 down = e2 * uv1.x - e1 * uv2.x;
@@ -301,6 +353,10 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
                point.corner[2] * point.weight[2];
   s.reach = largest_abs(s.position);
   for (int i = 0; i < 3; ++i) s.reach = max2(s.reach, largest_abs(point.corner[i] - s.position));
+  if (instanced != 0u) {
+    vec3 moved = vec3(point.to_world[0].w, point.to_world[1].w, point.to_world[2].w);
+    s.reach = max2(s.reach, largest_abs(moved)) * point.rounding;
+  }
   s.view = from_viewer * -1.0f;
   vec3 across = cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]);
   s.geometric = normalize_or(across, s.view);
@@ -310,9 +366,9 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
   LOAD4(n0, normal_map, point.texel[0]);
   LOAD4(n1, normal_map, point.texel[1]);
   LOAD4(n2, normal_map, point.texel[2]);
-  s.normal = normalize_or(
-      as_vec3(n0) * point.weight[0] + as_vec3(n1) * point.weight[1] + as_vec3(n2) * point.weight[2],
-      s.geometric);
+  s.normal = as_vec3(n0) * point.weight[0] + as_vec3(n1) * point.weight[1] + as_vec3(n2) * point.weight[2];
+  if (instanced != 0u) s.normal = placed_normal(point, s.normal);
+  s.normal = normalize_or(s.normal, s.geometric);
   vec4 base = base_color_at(material, point, uvs);
   s.albedo = vec3(base.x, base.y, base.z);
   s.alpha = base.w;

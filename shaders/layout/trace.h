@@ -121,14 +121,14 @@ FN bool one_sided(float a, float b, float c) {
 
 // w0, w1, w2: the edge functions opposite p0, p1, p2. t is a mean of the corners' with weights of one sign,
 // so it cannot leave their range however small the triangle is. A ray that a mask let through goes on from
-// tmin and behind primitive `passed`, so that what lies in the same plane is met as well; no_index: there is
+// tmin and with primitive `next`, so that what lies in the same plane is met as well; no_index: there, with
 // none.
-FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, uint passed,
+FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2, float tmin, uint next,
                         float enter, uint primitive, INOUT(Hit) best) {
   float sum = w0 + w1 + w2;
   if (one_sided(w0, w1, w2) && sum != 0.0f) {
     float t = (w0 * p0.z + w1 * p1.z + w2 * p2.z) / sum;
-    bool beyond = t > tmin || (t == tmin && primitive > passed);
+    bool beyond = t > tmin || (t == tmin && primitive >= next);
     t = max2(t, enter);
     if (beyond && (t < best.t || (t == best.t && primitive < best.primitive))) {
       best.t = t;
@@ -140,16 +140,16 @@ FN void accept_triangle(vec3 p0, vec3 p1, vec3 p2, float w0, float w1, float w2,
 }
 
 // Both triangles of the quad a b c d by its five edge functions. `enter`: slab_enter of the quad's own bound.
-FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, uint passed, float enter,
+FN void intersect_quad(vec3 a, vec3 b, vec3 c, vec3 d, Ray ray, Shear shear, uint next, float enter,
                        uint texel, INOUT(Hit) best) {
   a = sheared(a, ray.origin, shear);
   b = sheared(b, ray.origin, shear);
   c = sheared(c, ray.origin, shear);
   d = sheared(d, ray.origin, shear);
   float bc = edge_function(b, c);
-  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, passed, enter, 2u * texel,
+  accept_triangle(a, b, c, bc, edge_function(c, a), edge_function(a, b), ray.tmin, next, enter, 2u * texel,
                   best);
-  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, passed, enter,
+  accept_triangle(d, c, b, -bc, edge_function(b, d), edge_function(d, c), ray.tmin, next, enter,
                   2u * texel + 1u, best);
 }
 
@@ -189,11 +189,9 @@ FN Walk walk_on(Walk walk) {
 
 struct TracePush {
   uint rays;
-  uint depth;   // of the leaves
   uint resume;  // 0: all rays from the root; 1: those unfinished, from their states
   uint budget;  // steps of a ray in this dispatch. Mesa before 23 stops a subgroup silently after 65,535 loop
                 // iterations: with 8 lanes and two nested loops a budget of 4,000 can never reach that.
-  uint slots;   // leaf slots in use
 };
 
 LODESTONE_LAYOUT_END

@@ -39,7 +39,7 @@ int run_bake(const BakeOptions& options) {
   pictures.check(options.scene.scene);
   const ThreadLimit threads(options.threads);
   const scene::Scene scene = load_scene(options.scene);
-  const scene::Assembly assembly = scene::assemble(scene);
+  const scene::Assembly assembly = scene::assemble(scene, instancing_of(options.scene));
   StageClock clock(options.scene.scene);
   const geometry_image::Atlas atlas = geometry_image::build_atlas(
       scene, assembly, options.scene.atlas, [&](const char* stage) { clock.begin(stage); });

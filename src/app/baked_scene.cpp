@@ -47,6 +47,8 @@ BakedScene::BakedScene(const SceneOptions& options) : file_(options.scene) {
     fail(ExitCode::usage, "--relaxation-sweeps",
          "`{}` was baked without the maps of its charts; bake it again with --keep-maps", file_);
   }
+  if (options.instancing != scene::Instancing::automatic && options.instancing != record_.instancing)
+    fail(ExitCode::usage, "--instancing", "`{}` was baked with another mode; leave the option out", file_);
   geometry_image::AtlasSettings asked = options.atlas;
   asked.charts.keep_maps = false;  // a file that has them serves both
   // What it is may be asked for by name, whatever it was asked for as.
@@ -90,7 +92,8 @@ geometry_image::Atlas BakedScene::take_atlas(const scene::Scene& scene, const sc
 
 geometry_image::BakeRecord record_of(const SceneOptions& options, const fs::path& output,
                                      const std::string& content_hash) {
-  geometry_image::BakeRecord record = {content_hash, options.scene, options.height_scale, options.atlas};
+  geometry_image::BakeRecord record = {content_hash, options.scene, options.height_scale,
+                                       instancing_of(options), options.atlas};
   if (is_builtin(options.scene)) return record;
   // The folder is resolved, so that two names for it are one; the file is not, for what it names itself is
   // looked for beside it.

@@ -24,6 +24,7 @@ class BakedScene {
   // Its scene, from the folder of the file or below, never from elsewhere. Throws Error(bad_input), naming
   // the file and the remedy, where it is not there.
   scene::Scene load() const;
+  scene::Instancing instancing() const { return record_.instancing; }
   // The atlas; once. Throws Error(bad_input) where the scene is no longer the one that was baked.
   geometry_image::Atlas take_atlas(const scene::Scene& scene, const scene::Assembly& assembly);
 

@@ -32,14 +32,18 @@ struct SceneOptions {
   std::string scene;
   geometry_image::AtlasSettings atlas;
   const char* budget_option = "";  // that gave the texel budget, for messages
+  scene::Instancing instancing = scene::Instancing::automatic;
   float height_scale = 0;
   // What stands in for the scene's own sky; empty: nothing.
   std::string environment;
   std::optional<float> environment_strength, environment_rotation;
 };
 void add_scene_argument(CLI::App& app, SceneOptions& options);  // SCENE --height
-void add_atlas_options(CLI::App& app,
-                       SceneOptions& options);  // --atlas --resolution --texel-budget --signal --all-shapes
+void add_atlas_options(
+    CLI::App& app,
+    SceneOptions& options);  // --atlas --resolution --texel-budget --signal --all-shapes --instancing
+// What they say of it together. Throws Error(usage) where --instancing on meets what needs a single object.
+scene::Instancing instancing_of(const SceneOptions& options);
 // --environment --environment-strength --environment-rotation, for commands that make pictures
 void add_environment_options(CLI::App& app, SceneOptions& options);
 // The environment of these options, read; none where none is given. Throws Error(usage) where the others are

@@ -133,7 +133,11 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
           {"quads", report.quads},
           {"texels", report.texels},
           {"slots", report.slots},
-          {"depth", atlas.depth},
+          {"objects", list(atlas.objects,
+                           [](const geometry_image::AtlasObject& object) {
+                             return Json{
+                                 {"texels", object.texels}, {"slots", object.slots}, {"depth", object.depth}};
+                           })},
           {"closed", report.closed()},
           {"boundary_edges", report.boundary_edges},
           {"non_manifold_edges", report.non_manifold_edges},
@@ -153,7 +157,7 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
 
 Json describe_scene(const SceneOptions& options) {
   const scene::Scene scene = load_scene(options);
-  const scene::Assembly assembly = scene::assemble(scene);
+  const scene::Assembly assembly = scene::assemble(scene, instancing_of(options));
   StageClock clock(options.scene);
   const geometry_image::Atlas atlas = geometry_image::cached_atlas(
       scene, assembly, options.atlas, nullptr, [&](const char* stage) { clock.begin(stage); });
@@ -164,6 +168,8 @@ Json describe_scene(const SceneOptions& options) {
       {"triangles", assembly.triangles.size()},
       {"vertices", assembly.positions.size()},
       {"placements", assembly.placements.size()},
+      {"objects", assembly.objects.size()},
+      {"instances", assembly.instances.size()},
       {"nodes", scene.nodes.size()},
       {"bounds", describe_bounds(scene::pose_bounds(scene, rest))},
       {"meshes", list(scene.meshes, describe_mesh)},
@@ -207,7 +213,7 @@ Json describe_baked(const std::string& file) {
       options.scene = file;
       BakedScene baked(options);
       const scene::Scene scene = baked.load();
-      const scene::Assembly assembly = scene::assemble(scene);
+      const scene::Assembly assembly = scene::assemble(scene, baked.instancing());
       const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
       distance =
           describe_distance(measure_fidelity(scene, assembly, baked.take_atlas(scene, assembly), rest));

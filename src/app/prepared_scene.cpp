@@ -77,7 +77,9 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
   }
   prepared.animation = scene::find_animation(prepared.scene, pose.clip);
   prepared.pose_at(0);  // finds unknown weight names before the costly part
-  prepared.assembly = timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene); });
+  const scene::Instancing instancing = baked ? baked->instancing() : instancing_of(options);
+  prepared.assembly =
+      timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene, instancing); });
   bool cached = false;
   prepared.atlas = timed(prepared.stages, "charts", [&] {
     if (baked) return baked->take_atlas(prepared.scene, prepared.assembly);
@@ -91,6 +93,10 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
                         cached  ? ", atlas from the cache"
                         : baked ? ", atlas as baked"
                                 : ""));
+  if (prepared.assembly.instances.size() > 1 || prepared.assembly.objects.front().rigid) {
+    log::note(fmt::format("{}: {} instances of {} objects", options.scene, prepared.assembly.instances.size(),
+                          prepared.assembly.objects.size()));
+  }
   for (const std::string& note : report.notes) log::note(options.scene + ": " + note);
   if (options.atlas.charts.keep_maps && report.mapped_charts == 0)
     log::note(options.scene +

@@ -55,19 +55,28 @@ struct AtlasReport {
   uint64_t mapped_charts = 0;       // ... this many of them
   uint64_t repeated_texels = 0;     // on borders of mapped charts, where the chart beside them is coarser
   // L2 stretch of mapped charts in the rest pose, over the area of the surface: 1 where a map is an isometry
-  // up to the mean density of texels.
-  double mean_stretch = 0, high_stretch = 0;  // the mean, and what 95 % of the area keep below
+  // up to the mean density of texels. The mean, and what 95 % of the area keep below; of several objects the
+  // mean over their areas, each in its own space, and the largest.
+  double mean_stretch = 0, high_stretch = 0;
   std::vector<std::string> notes;             // one sentence each
   bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
 };
 
+// The part of an atlas that is an object's (scene/assembly.h): a hierarchy of its own.
+struct AtlasObject {
+  uint32_t depth = 0;  // the leaves' level: 4^depth >= slots
+  uint32_t first_slot = 0, slots = 0;
+  uint32_t first_texel = 0, texels = 0;
+};
+
 struct Atlas {
   AtlasKind kind = AtlasKind::exact;  // what the charts are; automatic: some of each kind
-  uint32_t depth = 0;                 // the leaves' level: 4^depth >= slot count
-  // In the order of mesh and triangle, mapped ones behind all others; texels ascend with them.
+  std::vector<AtlasObject> objects;   // in the order of the assembly
+  // Object by object, and of each in the order of mesh and triangle, mapped ones behind all others; texels
+  // ascend with them. Blocks of slots are aligned within their object.
   std::vector<layout::ChartRecord> charts;
   std::vector<glm::uvec4> texel_map;  // see layout/atlas.h
-  std::vector<glm::uvec2> leaf_map;   // one a slot; the slots end with the last chart's block
+  std::vector<glm::uvec2> leaf_map;   // one a slot; an object's slots end with its last chart's block
   ChartMaps maps;                     // of all mapped charts, or empty
   AtlasReport report;
 };
@@ -77,8 +86,9 @@ using OnStage = std::function<void(const char*)>;
 
 // `grid` needs every placed mesh to be made of grids (else Error(usage)); `exact` gives every triangle a
 // chart; `charts` resamples everything, and keeps as exact only what it cannot map; `automatic` takes grid
-// where meshes are made of them and resamples the rest (one atlas can hold charts of all kinds). Throws
-// Error(bad_input) where no triangle is left, a grid is not what scene.h says, or more texels or leaves are
+// where meshes are made of them and resamples the rest (one atlas can hold charts of all kinds). Objects are
+// charted one by one, and errors told in parts of their own size; a texel budget is shared out by the area
+// that their largest instances have in the rest pose. Throws Error(bad_input) where no triangle is left, a grid is not what scene.h says, or more texels or leaves are
 // needed than there can be.
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
                   const OnStage& on_stage = {});
@@ -90,6 +100,7 @@ struct BakeRecord {
   // (so in the cache).
   std::string scene{};
   float height_scale = 0;  // scene::LoadOptions::height_scale
+  scene::Instancing instancing = scene::Instancing::off;  // that of the assembly
   AtlasSettings asked{};   // what build_atlas was given, and the hash with it
 };
 

@@ -12,35 +12,59 @@
 namespace lodestone::geometry_image {
 namespace {
 
-const char* chart_fault(const Atlas& atlas, const layout::ChartRecord& chart, uint64_t first_texel) {
+const char* chart_fault(const Atlas& atlas, const AtlasObject& object, const layout::ChartRecord& chart,
+                        uint64_t first_texel) {
   if (chart.kind > layout::chart_mapped) return "a chart of an unknown kind";
   if (chart.width < 2 || chart.height < 2) return "a chart without a quad";
   if (chart.kind == layout::chart_exact && (chart.width != 3 || chart.height != 3))
     return "an exact chart not of 3 x 3";
   if (chart.kind == layout::chart_mapped && chart.first_triangle != 0)
     return "a mapped chart with a triangle of its own";
-  if (chart.first_texel != first_texel || texel_count(chart) > atlas.texel_map.size() - first_texel) {
+  const uint64_t end_texel = uint64_t(object.first_texel) + object.texels;
+  if (chart.first_texel != first_texel || texel_count(chart) > end_texel - first_texel) {
     return "charts that do not follow one another";
   }
   // A chart has fewer than 2^31 texels from here on, so nothing below overflows.
   if (chart.first_triangle + triangle_count(chart) > atlas.report.triangles)
     return "a chart of triangles that do not exist";
   const uint64_t own = QuadOrder::block_slots(chart), block = chart.slot_count;
-  if (block < own || !std::has_single_bit(block) || chart.first_slot % block != 0)
+  if (chart.first_slot < object.first_slot || !std::has_single_bit(block) || block < own ||
+      (chart.first_slot - object.first_slot) % block != 0)
     return "a chart whose block is not its own";
-  if (chart.first_slot + block > atlas.leaf_map.size()) return "a chart outside the hierarchy";
+  if (chart.first_slot + block > uint64_t(object.first_slot) + object.slots)
+    return "a chart outside the hierarchy";
   return nullptr;
 }
 
-const char* charts_fault(const Atlas& atlas) {
-  uint64_t texels = 0, slots = 0;
-  for (const layout::ChartRecord& chart : atlas.charts) {
-    if (const char* fault = chart_fault(atlas, chart, texels)) return fault;
+// The charts of an object from `next` on, which becomes the first of the one behind it.
+const char* object_fault(const Atlas& atlas, const AtlasObject& object, size_t& next) {
+  uint64_t texels = object.first_texel, slots = 0;
+  const uint64_t end_texel = texels + object.texels;
+  for (; next < atlas.charts.size() && texels < end_texel; ++next) {
+    const layout::ChartRecord& chart = atlas.charts[next];
+    if (const char* fault = chart_fault(atlas, object, chart, texels)) return fault;
     texels += texel_count(chart);
     slots += chart.slot_count;
   }
-  if (texels != atlas.texel_map.size()) return "texels of no chart";
-  if (slots != atlas.leaf_map.size()) return "leaves of no chart";
+  if (texels != end_texel) return "texels of no chart";
+  if (slots != object.slots) return "leaves of no chart";
+  if (object.depth != tree_depth(object.slots)) return "a hierarchy of the wrong depth";
+  return nullptr;
+}
+
+const char* objects_fault(const Atlas& atlas) {
+  uint64_t texels = 0, slots = 0;
+  size_t next = 0;
+  for (const AtlasObject& object : atlas.objects) {
+    if (object.first_texel != texels || object.first_slot != slots || object.texels == 0)
+      return "objects that do not follow one another";
+    texels += object.texels;
+    slots += object.slots;
+    if (texels > atlas.texel_map.size() || slots > atlas.leaf_map.size()) return "objects beyond its end";
+    if (const char* fault = object_fault(atlas, object, next)) return fault;
+  }
+  if (next != atlas.charts.size() || texels != atlas.texel_map.size()) return "texels of no object";
+  if (slots != atlas.leaf_map.size()) return "leaves of no object";
   return nullptr;
 }
 
@@ -113,8 +137,7 @@ std::string find_fault(const Atlas& atlas) {
   if (atlas.report.texels != atlas.texel_map.size() || atlas.report.slots != atlas.leaf_map.size()) {
     return "a report of another atlas";
   }
-  if (atlas.depth != tree_depth(atlas.leaf_map.size())) return "a hierarchy of the wrong depth";
-  if (const char* fault = charts_fault(atlas)) return fault;
+  if (const char* fault = objects_fault(atlas)) return fault;
   if (const char* fault = maps_fault(atlas)) return fault;
   std::string fault = find_fault(atlas.maps, atlas.charts, atlas.texel_map, atlas.report.triangles);
   if (!fault.empty()) return fault;

@@ -2,10 +2,13 @@
 // A .lode file of this tracer, all numbers little-endian:
 //
 //   magic "lodestn" and a control character that text editors do not keep, version, kind of content
-//   record: content hash (text), scene (text), height scale (float), the settings that were asked for
-//   kind, depth, number of charts, texels, slots, and of faces, points, pieces and texels of the charts'
-//   maps, the report charts, texel map, leaf map, and the maps of charts: see packed_rows.h checksum: 32
-//   hexadecimal digits over everything before
+//   record: content hash (text), scene (text), height scale (float), instancing, the settings that were asked
+//   for
+//   kind, number of objects, charts, texels, slots, and of faces, points, pieces and texels of the charts'
+//   maps
+//   the report
+//   objects, charts, texel map, leaf map, and the maps of charts: see packed_rows.h
+//   checksum: 32 hexadecimal digits over everything before
 #include "lodestone/geometry_image/atlas_file.h"
 
 #include <algorithm>
@@ -24,13 +27,13 @@ namespace lodestone::geometry_image {
 namespace {
 
 constexpr std::array<char, 8> magic = {'l', 'o', 'd', 'e', 's', 't', 'n', '\x1a'};
-constexpr uint32_t version = 6;
+constexpr uint32_t version = 7;
 constexpr uint32_t content_atlas = 1;
 constexpr size_t checksum_digits = 32;
 
 // Nothing that build_atlas makes is larger.
 constexpr uint64_t max_slots = uint64_t(1) << (2 * layout::max_depth);
-constexpr uint64_t max_charts = max_slots;
+constexpr uint64_t max_charts = max_slots, max_objects = max_slots;
 constexpr uint64_t max_texels = (uint64_t(1) << 31) - 1;
 constexpr uint64_t max_triangles = uint64_t(1) << 28;
 constexpr uint64_t max_map_faces = uint64_t(1) << 30;
@@ -66,6 +69,10 @@ BakeRecord read_record(ByteReader& reader) {
   record.height_scale = reader.number<float>();
   if (!std::isfinite(record.height_scale) || record.height_scale < 0)
     reader.fail("its height scale is out of range");
+  const auto instancing = reader.number<uint32_t>();
+  if (instancing > static_cast<uint32_t>(scene::Instancing::off))
+    reader.fail("it was baked with unknown instancing");
+  record.instancing = static_cast<scene::Instancing>(instancing);
   const auto asked = reader.number<uint32_t>();
   if (asked > static_cast<uint32_t>(AtlasKind::charts))
     reader.fail("it was baked as an atlas of unknown kind");
@@ -141,13 +148,14 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   writer.text(record.content_hash);
   writer.text(record.scene);
   writer.number(record.height_scale);
+  writer.number(static_cast<uint32_t>(record.instancing));
   writer.number(static_cast<uint32_t>(record.asked.kind));
   writer.number(record.asked.charts.texel_budget);
   writer.number(static_cast<uint32_t>(record.asked.charts.signal));
   writer.number(static_cast<uint32_t>(record.asked.charts.all_shapes));
   writer.number(static_cast<uint32_t>(record.asked.charts.keep_maps));
   writer.number(static_cast<uint32_t>(atlas.kind));
-  writer.number(atlas.depth);
+  writer.number(static_cast<uint64_t>(atlas.objects.size()));
   writer.number(static_cast<uint64_t>(atlas.charts.size()));
   writer.number(static_cast<uint64_t>(atlas.texel_map.size()));
   writer.number(static_cast<uint64_t>(atlas.leaf_map.size()));
@@ -159,6 +167,7 @@ std::vector<std::byte> pack_atlas(const Atlas& atlas, const BakeRecord& record) 
   for (double AtlasReport::*field : report_stretches) writer.number(atlas.report.*field);
   writer.number(static_cast<uint32_t>(atlas.report.notes.size()));
   for (const std::string& note : atlas.report.notes) writer.text(note);
+  pack_rows(atlas.objects, writer);
   pack_rows(atlas.charts, writer);
   pack_rows(atlas.texel_map, writer);
   pack_rows(atlas.leaf_map, writer);
@@ -176,7 +185,7 @@ Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, Ba
   const BakeRecord found = read_record(reader);
   Atlas atlas;
   atlas.kind = static_cast<AtlasKind>(reader.number<uint32_t>());
-  atlas.depth = reader.number<uint32_t>();
+  const uint64_t objects = read_count(reader, max_objects);
   const uint64_t charts = read_count(reader, max_charts);
   const uint64_t texels = read_count(reader, max_texels);
   const uint64_t slots = read_count(reader, max_slots);
@@ -185,6 +194,7 @@ Atlas unpack_atlas(const std::string& file, std::span<const std::byte> bytes, Ba
   const uint64_t map_pieces = read_count(reader, max_map_faces);
   const uint64_t map_texels = read_count(reader, max_texels);
   atlas.report = read_report(reader);
+  atlas.objects = unpack_rows<AtlasObject>(reader, objects);
   atlas.charts = unpack_rows<layout::ChartRecord>(reader, charts);
   atlas.texel_map = unpack_rows<glm::uvec4>(reader, texels);
   atlas.leaf_map = unpack_rows<glm::uvec2>(reader, slots);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/base/hash.h"
 #include "lodestone/geometry_image/atlas.h"
+#include "lodestone/geometry_image/atlas_objects.h"
 #include "lodestone/geometry_image/chart_seams.h"
 
 namespace lodestone::geometry_image {
@@ -23,6 +24,10 @@ std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembl
   hash.add_value(settings.charts.keep_maps);
   // Triangles, and what decides which vertices are one point.
   hash.add_array(assembly.placements);
+  for (const scene::Object& object : assembly.objects) {
+    hash.add_value(object.first_placement);
+    hash.add_value(object.rigid);
+  }
   hash.add_array(assembly.parts);
   hash.add_array(assembly.triangles);
   hash.add_array(assembly.positions);
@@ -40,6 +45,7 @@ std::string atlas_hash(const scene::Scene& scene, const scene::Assembly& assembl
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
   hash.add_array(scene::frame_weights(scene, assembly, rest));
   hash.add_array(scene::frame_matrices(scene, assembly, rest));
+  if (assembly.objects.size() > 1) hash.add_array(object_areas(scene, assembly));
   if (settings.charts.signal == Signal::screen) {
     for (size_t node = 0; node < scene.nodes.size(); ++node) {
       if (scene.nodes[node].camera == scene::none) continue;

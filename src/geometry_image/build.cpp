@@ -11,9 +11,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/parallel.h"
+#include "lodestone/geometry_image/atlas_objects.h"
 #include "lodestone/geometry_image/charts.h"
 #include "lodestone/geometry_image/mapped_charts.h"
 #include "lodestone/geometry_image/notes.h"
@@ -149,6 +151,29 @@ void chart_surface(const scene::Scene& scene, const scene::Assembly& assembly, c
   }
 }
 
+// Of one object after the other.
+Atlas build_objects(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
+                    ChartOrder order, const OnStage& on_stage) {
+  const std::vector<double> areas = object_areas(scene, assembly);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  Atlas atlas;
+  std::vector<AtlasReport> reports;
+  for (size_t i = 0; i < assembly.objects.size(); ++i) {
+    AtlasSettings own = settings;
+    if (settings.charts.texel_budget != 0) {
+      const double share = area > 0 ? areas[i] / area : 1 / double(areas.size());
+      const double texels = std::ceil(double(settings.charts.texel_budget) * share);
+      own.charts.texel_budget = std::max<uint64_t>(static_cast<uint64_t>(texels), 1);
+    }
+    const Atlas part = build_atlas(scene, scene::assemble_object(scene, assembly, i), own, order, on_stage);
+    append(part, assembly.objects[i].first_triangle, scene.name, atlas);
+    reports.push_back(part.report);
+  }
+  join_stretch(reports, areas, atlas.report);
+  atlas.kind = kind_of(atlas.charts);
+  return atlas;
+}
+
 }  // namespace
 
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
@@ -158,6 +183,7 @@ Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, co
 
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
                   ChartOrder order, const OnStage& on_stage) {
+  if (assembly.objects.size() > 1) return build_objects(scene, assembly, settings, order, on_stage);
   Atlas atlas;
   chart_surface(scene, assembly, settings, atlas, on_stage);
   atlas.kind = kind_of(atlas.charts);
@@ -165,7 +191,8 @@ Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, co
   std::vector<ChartBox> boxes;
   if (atlas.charts.size() > 1) boxes = chart_boxes(scene, assembly, atlas);
   const uint64_t slots = assign_slots(atlas.charts, boxes, order, scene.name);
-  atlas.depth = tree_depth(slots);
+  atlas.objects.push_back({tree_depth(slots), 0, static_cast<uint32_t>(slots), 0,
+                           static_cast<uint32_t>(atlas.texel_map.size())});
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.texels = atlas.texel_map.size();
   atlas.report.slots = slots;

@@ -42,8 +42,7 @@ std::optional<Fidelity> measure_fidelity(const scene::Scene& scene, const scene:
                                          const Atlas& atlas, const scene::Pose& pose) {
   if (atlas.report.mapped_charts == 0) return std::nullopt;
   Triangles input;
-  input.positions = scene::blended_positions(assembly, scene::frame_weights(scene, assembly, pose),
-                                             scene::frame_matrices(scene, assembly, pose));
+  input.positions = scene::placed_positions(scene, assembly, pose);
   if (!is_finite(input)) return std::nullopt;
   for (const glm::uvec4& t : assembly.triangles) input.corners.emplace_back(t.x, t.y, t.z);
   const Triangles image = image_surface(assembly, input.positions, atlas);

@@ -21,7 +21,7 @@ struct Fidelity {
 
 // Measured at all corners and at points spread over both surfaces (see mesh/distance.h). Nothing where no
 // chart is resampled, for the others keep the input's triangles, or where the pose has a position that is no
-// finite number.
+// finite number. Of an object that is placed many times, the first instance is measured.
 std::optional<Fidelity> measure_fidelity(const scene::Scene& scene, const scene::Assembly& assembly,
                                          const Atlas& atlas, const scene::Pose& pose);
 

@@ -33,7 +33,7 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, con
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
                                   radiance.id(), environment.environments.id(), environment.quads.id(),
                                   environment.cells.id(), paths.id()}),
-        push, push.rays, {tables.sources, tables.layered, environment.map, recursion});
+        push, push.rays, surface_constants(recursion));
     if (!add_unblocked(push.rays, interrupted)) return false;
   }
   return true;
@@ -43,7 +43,7 @@ bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrup
   run(passes::ambient,
       surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
       layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
-      rays.rays, {tables.sources});
+      rays.rays, {tables.sources, 0, 0, 0, instances ? 1u : 0u});
   return add_unblocked(rays.rays, interrupted);
 }
 
@@ -59,7 +59,7 @@ bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t rec
     count_from_zero();
     run(passes::branch,
         surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push,
-        push.rays, {tables.sources, tables.layered, 0, recursion});
+        push.rays, surface_constants(recursion));
     if (counted() == 0) return true;
     if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
   }
@@ -76,7 +76,7 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
                                   radiance.id(), paths.id(), going_on.id(), environment.environments.id(),
                                   environment.quads.id(), environment.cells.id()}),
-        push, push.rays, {tables.sources, tables.layered, environment.map});
+        push, push.rays, surface_constants());
     const bool last = counted() == 0;
     if (!add_unblocked(push.rays, interrupted)) return false;
     if (last) return true;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t group_slots = 16, block_side = 4;
 
-std::optional<glm::uvec4> find_block(const std::vector<glm::uvec2>& leaf_map, uint32_t group) {
+std::optional<glm::uvec4> find_block(std::span<const glm::uvec2> leaf_map, uint32_t group) {
   const auto slot = [&](uint32_t x, uint32_t y) {
     const uint64_t place =
         uint64_t(group_slots) * group + (layout::spread_bits(x) | layout::spread_bits(y) << 1);
@@ -34,7 +34,7 @@ std::optional<glm::uvec4> find_block(const std::vector<glm::uvec2>& leaf_map, ui
 
 }  // namespace
 
-LeafBlocks find_leaf_blocks(const std::vector<glm::uvec2>& leaf_map, const HierarchyLevels& levels) {
+LeafBlocks find_leaf_blocks(std::span<const glm::uvec2> leaf_map, const HierarchyLevels& levels) {
   LeafBlocks found;
   if (levels.depth() < 2) return found;
   for (uint32_t group = 0; group < levels.places(levels.depth() - 2); ++group) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "lodestone/render/hierarchy_levels.h"
@@ -19,6 +20,6 @@ struct LeafBlocks {
 };
 
 // Of the groups above which `levels` writes records.
-LeafBlocks find_leaf_blocks(const std::vector<glm::uvec2>& leaf_map, const HierarchyLevels& levels);
+LeafBlocks find_leaf_blocks(std::span<const glm::uvec2> leaf_map, const HierarchyLevels& levels);
 
 }  // namespace lodestone::render

@@ -4,6 +4,7 @@
 #include "lodestone/layout/boxes.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
+#include "lodestone/layout/objects.h"
 #include "lodestone/layout/relax.h"
 #include "lodestone/layout/trace.h"
 
@@ -55,41 +56,79 @@ constexpr Binding camera_bindings[] = {{"frame", structs, read}, {"rays", quad, 
     "pending", structs, read_write                                                                          \
   }
 
+#define OBJECT_BINDINGS {"objects", quad, read}, {"roots", word, read}
+
 constexpr Binding trace_threaded_bindings[] = {
-    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}};
+    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}, OBJECT_BINDINGS};
 
 constexpr Binding trace_octant_bindings[] = {
-    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}};
+    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, OBJECT_BINDINGS};
 
 // The CPU's traversal.
 constexpr Binding trace_wide_bindings[] = {RAY_BINDINGS,
                                            {"nodes_lo", quad, read},
                                            {"nodes_hi", quad, read},
                                            {"wide_nodes", structs, read},
-                                           {"leaf_map", word, read}};
+                                           {"leaf_map", word, read},
+                                           OBJECT_BINDINGS};
 
 constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
                                             {"boxes", quad, read},
                                             {"leaf_map", word, read},
-                                            {"extent", structs, read},
-                                            {"trails", quad, read_write}};
+                                            {"extents", structs, read},
+                                            {"trails", quad, read_write},
+                                            OBJECT_BINDINGS};
 
 // Its leaf map is read in pairs of slots.
 constexpr Binding trace_tile_bindings[] = {
-    RAY_BINDINGS, {"boxes", quad, read}, {"leaf_map", quad, read}, {"extent", structs, read}};
+    RAY_BINDINGS, {"boxes", quad, read}, {"leaf_map", quad, read}, {"extents", structs, read}, OBJECT_BINDINGS};
 
+#undef OBJECT_BINDINGS
 #undef RAY_BINDINGS
+
+constexpr Binding place_instances_bindings[] = {{"objects", quad, read},
+                                                {"instances", quad, read},
+                                                {"instance_lo", quad, write},
+                                                {"instance_hi", quad, write},
+                                                {"keys", word, write}};
+
+constexpr Binding sort_keys_bindings[] = {{"keys", word, read}, {"sorted", word, write}};
+
+constexpr Binding upper_leaves_bindings[] = {{"keys", word, read},
+                                             {"instance_lo", quad, read},
+                                             {"instance_hi", quad, read},
+                                             {"upper_lo", quad, write},
+                                             {"upper_hi", quad, write}};
+
+constexpr Binding enter_instances_bindings[] = {
+    {"rays", quad, read},         {"hits", quad, read_write},   {"hit_instances", word, read_write},
+    {"states", quad, read_write}, {"places", quad, read_write}, {"steps", word, read_write},
+    {"upper_lo", quad, read},     {"upper_hi", quad, read},     {"instances", quad, read},
+    {"owners", word, read},       {"local_hits", quad, read},   {"local_steps", word, read},
+    {"found", word, write},       {"block_counts", structs, read_write}};
+
+constexpr Binding scan_blocks_bindings[] = {
+    {"block_counts", structs, read_write}, {"block_starts", word, write}, {"entered", structs, read_write}};
+
+constexpr Binding gather_rays_bindings[] = {
+    {"found", word, read}, {"block_starts", word, read}, {"owners", word, read}, {"next_owners", word, write}};
+
+constexpr Binding local_rays_bindings[] = {
+    {"rays", quad, read},         {"hits", quad, read},          {"states", quad, read},
+    {"places", quad, read},       {"found", word, read},         {"instances", quad, read},
+    {"owners", word, read},       {"roots", word, write},        {"local_rays", quad, write},
+    {"local_states", quad, write}, {"local_steps", word, write}};
 
 constexpr Binding boxes_leaves_bindings[] = {{"leaf_map", word, read},
                                              {"geometry", quad, read},
                                              {"boxes", quad, write},
-                                             {"extent", structs, read_write},
+                                             {"extents", structs, read_write},
                                              {"groups", word, read}};
 
 constexpr Binding boxes_blocks_bindings[] = {{"blocks", quad, read},
                                              {"geometry", quad, read},
                                              {"boxes", quad, write},
-                                             {"extent", structs, read_write}};
+                                             {"extents", structs, read_write}};
 
 constexpr Binding boxes_bindings[] = {{"boxes", quad, read_write}};
 
@@ -101,8 +140,9 @@ constexpr Binding wide_nodes_bindings[] = {
       {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read},                     \
       {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
       {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                      \
-      {"materials", structs, read}, {"textures", structs, read}, {                                       \
-    "frame", structs, read                                                                               \
+      {"materials", structs, read}, {"textures", structs, read}, {"frame", structs, read},               \
+      {"hit_instances", word, read}, {                                                                   \
+    "instances", quad, read                                                                              \
   }
 
 #define ENVIRONMENT_BINDINGS                                            \
@@ -168,7 +208,7 @@ const PassDecl relax_begin{"relax", "geometry_image/relax_begin", relax_begin_bi
 const PassDecl relax_measure{"relax", "geometry_image/relax_measure", relax_measure_bindings,
                              sizeof(RelaxPush)};
 const PassDecl relax_move{"relax", "geometry_image/relax_move", relax_move_bindings, sizeof(RelaxPush)};
-const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bindings, sizeof(CountPush)};
+const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bindings, sizeof(RangePush)};
 const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings,
                              sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
@@ -178,20 +218,32 @@ const PassDecl boxes_blocks{"bounds", "geometry_image/boxes_blocks", boxes_block
 const PassDecl boxes_leaves{"bounds", "geometry_image/boxes_leaves", boxes_leaves_bindings,
                             sizeof(BoxesPush)};
 const PassDecl boxes{"bounds", "geometry_image/boxes", boxes_bindings, sizeof(BoxesPush)};
+const PassDecl place_instances{"upper", "geometry_image/place_instances", place_instances_bindings, sizeof(PlacePush)};
+const PassDecl sort_keys{"upper", "geometry_image/sort_keys", sort_keys_bindings, sizeof(SortPush)};
+const PassDecl upper_leaves{"upper", "geometry_image/upper_leaves", upper_leaves_bindings, sizeof(UpperPush)};
+const PassDecl upper_bounds{"upper", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
+const PassDecl enter_instances{"trace", "geometry_image/enter_instances", enter_instances_bindings, sizeof(EnterPush)};
+const PassDecl scan_blocks{"trace", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
+const PassDecl gather_rays{"trace", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
+const PassDecl local_rays{"trace", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
+const PassDecl occlude_enter{"occlude", "geometry_image/enter_instances", enter_instances_bindings, sizeof(EnterPush)};
+const PassDecl occlude_scan{"occlude", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
+const PassDecl occlude_gather{"occlude", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
+const PassDecl occlude_local{"occlude", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
 const PassDecl camera{"camera", "geometry_image/camera", camera_bindings, sizeof(RayPush)};
 const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_threaded_bindings,
                               sizeof(TracePush)};
 const PassDecl trace_octant{"trace", "geometry_image/trace_octant", trace_octant_bindings, sizeof(TracePush)};
 const PassDecl trace_wide{"trace", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
-const PassDecl trace_boxes{"trace", "geometry_image/trace_boxes", trace_boxes_bindings, sizeof(BoxTracePush)};
-const PassDecl trace_tile{"trace", "geometry_image/trace_tile", trace_tile_bindings, sizeof(BoxTracePush)};
+const PassDecl trace_boxes{"trace", "geometry_image/trace_boxes", trace_boxes_bindings, sizeof(TracePush)};
+const PassDecl trace_tile{"trace", "geometry_image/trace_tile", trace_tile_bindings, sizeof(TracePush)};
 const PassDecl occlude_threaded{"occlude", "geometry_image/trace_threaded", trace_threaded_bindings,
                                 sizeof(TracePush)};
 const PassDecl occlude_octant{"occlude", "geometry_image/trace_octant", trace_octant_bindings,
                               sizeof(TracePush)};
 const PassDecl occlude_wide{"occlude", "geometry_image/trace_wide", trace_wide_bindings, sizeof(TracePush)};
 const PassDecl occlude_boxes{"occlude", "geometry_image/trace_boxes", trace_boxes_bindings,
-                             sizeof(BoxTracePush)};
+                             sizeof(TracePush)};
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
 const PassDecl ambient{"shade", "geometry_image/ambient", ambient_bindings, sizeof(AmbientPush)};

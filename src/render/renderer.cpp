@@ -77,8 +77,10 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   // Whole tiles, so that rays that are side by side in the picture stay so.
   batch_rays = waiting == 0 ? rays : std::min<uint64_t>(rays, most_branches / waiting / 64 * 64);
   const uint64_t pixels = uint64_t(settings.width) * settings.height;
-  primary = RayBuffers(device, "", batch_rays);
-  shadow = RayBuffers(device, "shadow_", batch_rays);
+  if (assembly.objects.size() > 1 || assembly.objects.front().rigid)
+    instances.emplace(device, assembly, settings.loop_budget);
+  primary = RayBuffers(device, "", batch_rays, instances.has_value());
+  shadow = RayBuffers(device, "shadow_", batch_rays, instances.has_value());
   contributions = Buffer(device, {"contributions", batch_rays, 16});
   radiance = Buffer(device, {"radiance", batch_rays, 16});
   paths = Buffer(device, {"paths", eye ? 0 : batch_rays, 16});
@@ -108,33 +110,69 @@ void Renderer::State::blend(const scene::Pose& pose, const Buffer& blended_posit
   const std::vector<glm::vec4> frame_matrices = scene::frame_matrices(scene, assembly, pose);
   if (!frame_weights.empty()) backend.upload(weights.id(), std::as_bytes(std::span(frame_weights)));
   backend.upload(matrices.id(), std::as_bytes(std::span(frame_matrices)));
-  const auto vertices = static_cast<uint32_t>(assembly.positions.size());
+  // What is rigid has been blended once and for all.
+  uint32_t first = 0;
+  for (const scene::Object& object : assembly.objects)
+    if (object.rigid && rigid_done) first = object.first_vertex + object.vertices;
+  const uint32_t vertices = static_cast<uint32_t>(assembly.positions.size()) - first;
+  if (vertices == 0) return;
   run(passes::blend,
       {tables.base_positions.id(), tables.base_normals.id(), tables.base_tangents.id(),
        tables.vertex_ranges.id(), tables.morph_positions.id(), tables.morph_normals.id(),
        tables.morph_tangents.id(), tables.influences.id(), weights.id(), matrices.id(),
        blended_positions.id(), normals.id(), tangents.id()},
-      layout::BlendPush{vertices, assembly.has_tangents ? 1u : 0u}, vertices);
+      layout::BlendPush{first, vertices, assembly.has_tangents ? 1u : 0u}, vertices);
 }
 
 // blend, relax, rasterise, bounds: everything that follows from the pose.
 void Renderer::State::update(const scene::Pose& pose) {
   blend(pose, positions);
   if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
-  const auto texels = static_cast<uint32_t>(atlas.texel_map.size());
-  run(passes::rasterise,
-      {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
-      layout::CountPush{texels}, texels);
-  tracing.build(geometry, pose_box.of(scene, pose));
+  size_t first = 0;  // object to be made anew
+  uint32_t first_texel = 0;
+  while (rigid_done && first < assembly.objects.size() && assembly.objects[first].rigid) {
+    first_texel = atlas.objects[first].first_texel + atlas.objects[first].texels;
+    ++first;
+  }
+  const uint32_t texels = static_cast<uint32_t>(atlas.texel_map.size()) - first_texel;
+  if (texels > 0) {
+    run(passes::rasterise,
+        {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
+        layout::RangePush{first_texel, texels}, texels);
+  }
+  const std::vector<scene::Bounds> boxes = object_boxes(pose);
+  tracing.build(geometry, boxes, first);
+  if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, tracing.objects());
+  rigid_done = true;
+}
+
+// Round each object in its space.
+std::vector<scene::Bounds> Renderer::State::object_boxes(const scene::Pose& pose) const {
+  std::vector<scene::Bounds> boxes;
+  for (const scene::Object& object : assembly.objects) {
+    scene::Bounds& box = boxes.emplace_back();
+    for (uint32_t i = 0; i < object.placements; ++i) {
+      const scene::Placement& placement = assembly.placements[object.first_placement + i];
+      box.include(object.rigid ? pose_box.of_mesh(placement.mesh)
+                               : pose_box.of_node(scene, pose, placement.node));
+    }
+  }
+  return boxes;
+}
+
+bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query,
+                            const Interrupted& interrupted) {
+  if (instances) return instances->trace(tracing, geometry, rays, count, query, interrupted);
+  return tracing.trace(geometry, rays, count, query, interrupted);
 }
 
 // By rays through a grid of points of the picture.
 float Renderer::State::find_focus(const View& view) {
   const std::vector<glm::vec4> rays = focus_rays(view);
   const auto count = static_cast<uint32_t>(rays.size() / 2);
-  const RayBuffers probes(backend, "focus_", count);
+  const RayBuffers probes(backend, "focus_", count, instances.has_value());
   backend.upload(probes.rays.id(), std::as_bytes(std::span(rays)));
-  tracing.trace(geometry, probes, count, {}, {});
+  trace(probes, count, {}, {});
   std::vector<glm::uvec4> hits(count);
   download_all(backend, probes.hits, hits);
   return focus_of(view, rays, hits);
@@ -176,13 +214,15 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view) {
 bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query,
                                    const Interrupted& interrupted) {
   if (tables.has_masks) query.any_hit = false;
-  if (!tracing.trace(geometry, rays, count, query, interrupted)) return false;
+  if (!trace(rays, count, query, interrupted)) return false;
   if (!tables.has_masks) return true;
+  query.restarted = true;
   do {
+    tracing.clear_pending();
     run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), tracing.pending().id()}),
-        layout::CountPush{count}, count, {tables.sources, tables.layered});
+        layout::CountPush{count}, count, surface_constants());
     if (tracing.take_pending() == 0) return true;
-  } while (tracing.trace(geometry, rays, count, query, interrupted));
+  } while (trace(rays, count, query, interrupted));
   return false;
 }
 
@@ -196,7 +236,7 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
     if (!trace_masked(primary, count, {.steps = wants_steps, .common_origin = true}, interrupted))
       return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
-        count, {tables.sources, tables.layered});
+        count, surface_constants());
   }
   for (uint32_t sample = 0; sample < settings.spp; ++sample) {
     const layout::RayPush push{first_ray,
@@ -273,14 +313,14 @@ std::vector<glm::uvec4> Renderer::texel_map() {
 void Renderer::load_rays(const std::vector<glm::vec4>& rays) {
   State& s = *state_;
   s.loaded_rays = static_cast<uint32_t>(rays.size() / 2);
-  s.loaded = RayBuffers(s.backend, "loaded_", s.loaded_rays);
+  s.loaded = RayBuffers(s.backend, "loaded_", s.loaded_rays, s.instances.has_value());
   s.loaded_together = mostly_common_origins(rays);
   s.backend.upload(s.loaded.rays.id(), std::as_bytes(std::span(rays)));
 }
 
 void Renderer::trace_loaded() {
   State& s = *state_;
-  s.tracing.trace(s.geometry, s.loaded, s.loaded_rays, {.common_origin = s.loaded_together}, {});
+  s.trace(s.loaded, s.loaded_rays, {.common_origin = s.loaded_together}, {});
 }
 
 std::vector<glm::uvec4> Renderer::hits() {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "lodestone/layout/frame.h"
+#include "lodestone/layout/recursion.h"
 #include "lodestone/render/environment_tables.h"
+#include "lodestone/render/instances.h"
 #include "lodestone/render/relaxation.h"
 #include "lodestone/render/renderer.h"
 #include "lodestone/render/scene_tables.h"
@@ -29,6 +31,8 @@ struct Renderer::State {
   scene::PoseReach reach;
   scene::PoseBox pose_box;
   std::optional<Relaxation> relaxation;
+  std::optional<Instances> instances;  // none: all of the scene is one object in the world
+  bool rigid_done = false;             // rigid objects are as they will always be
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
@@ -59,9 +63,17 @@ struct Renderer::State {
         rays.hits.id(),        geometry.id(),         normal_map.id(),        texel_map(),
         tables.triangles.id(), positions.id(),        normals.id(),           tangents.id(),
         tables.texcoords.id(), tables.images.id(),    tables.srgb_table.id(), tables.charts.id(),
-        tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id()};
+        tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id(),
+        // Without instances nothing reads them; any words and quads will do.
+        instances ? rays.instances.id() : rays.steps.id(),
+        instances ? instances->records().id() : geometry.id()};
     ids.insert(ids.end(), more);
     return ids;
+  }
+
+  // Of the passes that read them.
+  std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none) const {
+    return {tables.sources, tables.layered, environment.map, recursion, instances ? 1u : 0u};
   }
 
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
@@ -74,6 +86,8 @@ struct Renderer::State {
   void update(const scene::Pose& pose);
   float find_focus(const View& view);
   void begin_frame(const scene::Pose& pose, const View& view);
+  std::vector<scene::Bounds> object_boxes(const scene::Pose& pose) const;
+  bool trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query, const Interrupted& interrupted);
   bool trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
   bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
 

@@ -7,7 +7,6 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/tile.h"
-#include "lodestone/layout/trace.h"
 #include "lodestone/render/leaf_blocks.h"
 #include "lodestone/render/passes.h"
 #include "lodestone/render/scene_tables.h"
@@ -15,7 +14,7 @@
 namespace lodestone::render {
 namespace {
 
-Traversal choose_traversal(const DeviceInfo& device, Traversal wanted) {
+Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool several_objects) {
   const bool shuffles =
       std::find(device.lacks.begin(), device.lacks.end(), "subgroup shuffles") == device.lacks.end();
   const bool tiles = device.subgroup_size == layout::tile_lanes && shuffles;
@@ -24,19 +23,22 @@ Traversal choose_traversal(const DeviceInfo& device, Traversal wanted) {
          "needs a device with subgroups of {} that can shuffle; {} has none: use wide", layout::tile_lanes,
          device.name);
   }
-  if (wanted == Traversal::automatic) return tiles ? Traversal::tile : Traversal::wide;
-  return wanted;
+  if (wanted == Traversal::automatic) wanted = tiles ? Traversal::tile : Traversal::wide;
+  return wanted == Traversal::tile && several_objects ? Traversal::wide : wanted;
 }
 
 // A flat axis gets a thousandth of the largest one. Rounded outwards, all planes stay below 65535.
-layout::BoxGrid make_grid(const scene::Bounds& frame) {
-  const glm::vec3 size = frame.hi - frame.lo;
+glm::vec3 grid_step(const scene::Bounds& box) {
+  const glm::vec3 size = box.hi - box.lo;
   const float largest = std::max(layout::max_component(size), 1e-30f);
-  layout::BoxGrid grid{};
-  grid.base = frame.lo;
-  for (int axis = 0; axis < 3; ++axis)
-    grid.step[axis] = std::max(size[axis], largest * 0x1p-10f) * (1.0f / 65000);
-  return grid;
+  return glm::max(size, glm::vec3(largest * 0x1p-10f)) * (1.0f / 65000);
+}
+
+// Blocks of slots write four records each, also those past the last slot.
+uint64_t box_records(const HierarchyLevels& levels) {
+  const uint32_t depth = levels.depth();
+  const uint64_t last_level = depth >= 2 ? 4 * uint64_t(levels.places(depth - 2)) : 1;
+  return layout::level_base(depth - 1) + last_level;
 }
 
 }  // namespace
@@ -46,33 +48,50 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
     : backend_(backend),
       leaf_map_(leaf_map),
       on_cpu_(backend.info().kind == "cpu"),
-      traversal_(choose_traversal(backend.info(), traversal)),
+      traversal_(choose_traversal(backend.info(), traversal, atlas.objects.size() > 1)),
       loop_budget_(loop_budget),
-      levels_(atlas.depth, static_cast<uint32_t>(atlas.leaf_map.size())),
       pending_(backend, {"pending", 1, 4}) {
+  place_trees(atlas);
+  records_.resize(trees_.size());
+  objects_ = Buffer(backend, {"objects", 4 * uint64_t(trees_.size()), 16});
   if (uses_boxes()) {
-    // Blocks of slots write four records each, also those past the last slot.
-    const uint32_t depth = levels_.depth();
-    const uint64_t last_level = depth >= 2 ? 4 * uint64_t(levels_.places(depth - 2)) : 1;
-    const uint64_t records = layout::level_base(depth - 1) + last_level;
-    boxes_ = Buffer(backend, {"boxes", 3 * records, 16});
-    extent_ = Buffer(backend, {"extent", 1, 4});
-    const LeafBlocks found = find_leaf_blocks(atlas.leaf_map, levels_);
-    block_count_ = static_cast<uint32_t>(found.blocks.size());
-    group_count_ = static_cast<uint32_t>(found.others.size());
-    leaf_blocks_ = make_buffer(backend, "leaf_blocks", 16, found.blocks);
-    leaf_groups_ = make_buffer(backend, "leaf_groups", 4, found.others);
+    boxes_ = Buffer(backend, {"boxes", 3 * node_count_, 16});
+    extents_ = Buffer(backend, {"extents", trees_.size(), 4});
     return;
   }
-  nodes_lo_ = Buffer(backend, {"nodes_lo", levels_.nodes(), 16});
-  nodes_hi_ = Buffer(backend, {"nodes_hi", levels_.nodes(), 16});
+  nodes_lo_ = Buffer(backend, {"nodes_lo", node_count_, 16});
+  nodes_hi_ = Buffer(backend, {"nodes_hi", node_count_, 16});
   if (traversal_ == Traversal::threaded) {
-    links_ = Buffer(backend, {"links", 2 * levels_.nodes(), 4});
-    build_links();
+    links_ = Buffer(backend, {"links", 2 * node_count_, 4});
+    for (const Tree& tree : trees_) build_links(tree);
   } else if (traversal_ == Traversal::wide) {
-    const WideLevels wide(levels_.depth(), levels_.slots());
-    wide_nodes_ = Buffer(backend, {"wide_nodes", wide.end(), wide_node_bytes});
+    wide_nodes_ = Buffer(backend, {"wide_nodes", wide_count_, wide_node_bytes});
   }
+}
+
+// Where the hierarchy of each object begins.
+void Tracing::place_trees(const geometry_image::Atlas& atlas) {
+  LeafBlocks all;
+  for (const geometry_image::AtlasObject& object : atlas.objects) {
+    const HierarchyLevels levels(object.depth, object.slots);
+    Tree tree{levels, static_cast<uint32_t>(node_count_), object.first_slot,
+              static_cast<uint32_t>(wide_count_), 0, 0, 0, 0};
+    if (uses_boxes()) {
+      const LeafBlocks found = find_leaf_blocks(
+          std::span(atlas.leaf_map).subspan(object.first_slot, object.slots), levels);
+      tree.first_block = static_cast<uint32_t>(all.blocks.size());
+      tree.blocks = static_cast<uint32_t>(found.blocks.size());
+      tree.first_group = static_cast<uint32_t>(all.others.size());
+      tree.groups = static_cast<uint32_t>(found.others.size());
+      all.blocks.insert(all.blocks.end(), found.blocks.begin(), found.blocks.end());
+      all.others.insert(all.others.end(), found.others.begin(), found.others.end());
+    }
+    node_count_ += uses_boxes() ? box_records(levels) : levels.nodes();
+    wide_count_ += WideLevels(object.depth, object.slots).end();
+    trees_.push_back(tree);
+  }
+  leaf_blocks_ = make_buffer(backend_, "leaf_blocks", 16, all.blocks);
+  leaf_groups_ = make_buffer(backend_, "leaf_groups", 4, all.others);
 }
 
 template <class Push>
@@ -81,67 +100,99 @@ void Tracing::run(const PassDecl& pass, const std::vector<BufferId>& buffers, co
   backend_.run({&pass, buffers, std::as_bytes(std::span(&push, 1)), invocations, constants});
 }
 
-void Tracing::build_links() {
-  for (uint32_t level = 0; level <= levels_.depth(); ++level) {
+void Tracing::build_links(const Tree& tree) {
+  const HierarchyLevels& levels = tree.levels;
+  for (uint32_t level = 0; level <= levels.depth(); ++level) {
     // Only nodes above a slot in use: the siblings behind them are empty and never linked to.
-    const uint32_t shift = 2 * (levels_.depth() - level);
+    const uint32_t shift = 2 * (levels.depth() - level);
     const auto used =
-        static_cast<uint32_t>((uint64_t(levels_.slots()) + (uint64_t(1) << shift) - 1) >> shift);
+        static_cast<uint32_t>((uint64_t(levels.slots()) + (uint64_t(1) << shift) - 1) >> shift);
     run(passes::links, {leaf_map_.id(), links_.id()},
-        layout::LinksPush{level, levels_.depth(), used, levels_.slots()}, used);
+        layout::LinksPush{level, levels.depth(), used, tree.first_node, tree.first_slot, levels.slots()},
+        used);
   }
 }
 
-void Tracing::build(const Buffer& geometry, const scene::Bounds& frame) {
-  if (uses_boxes()) {
-    build_boxes(geometry, frame);
-  } else {
-    build_nodes(geometry);
+void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes, size_t first) {
+  const std::vector<uint32_t> zeros(trees_.size() - first, 0);
+  for (size_t i = first; i < trees_.size(); ++i) {
+    const Tree& tree = trees_[i];
+    layout::ObjectRecord& record = records_[i];
+    record.first_node = tree.first_node;
+    record.first_slot = tree.first_slot;
+    record.first_wide = tree.first_wide;
+    record.depth = tree.levels.depth();
+    record.slots = tree.levels.slots();
+    record.lo = boxes[i].lo;
+    record.hi = boxes[i].hi;
+    record.step = grid_step(boxes[i]);
+  }
+  backend_.upload(objects_.id(), std::as_bytes(std::span(records_)));
+  if (uses_boxes()) backend_.upload(extents_.id(), std::as_bytes(std::span(zeros)), 4 * first);
+  for (size_t i = first; i < trees_.size(); ++i) {
+    if (uses_boxes()) {
+      build_boxes(geometry, i);
+    } else {
+      build_nodes(geometry, trees_[i]);
+    }
   }
 }
 
-void Tracing::build_nodes(const Buffer& geometry) {
-  const uint32_t depth = levels_.depth();
+void Tracing::build_nodes(const Buffer& geometry, const Tree& tree) {
+  const HierarchyLevels& levels = tree.levels;
+  const uint32_t depth = levels.depth();
+  const auto push_of = [&](uint32_t level, uint32_t count, uint32_t written, uint32_t written_above) {
+    return layout::BoundsPush{level,           count,           written,        written_above,
+                              tree.first_node, tree.first_slot, tree.first_wide};
+  };
   run(passes::bounds_leaves, {leaf_map_.id(), geometry.id(), nodes_lo_.id(), nodes_hi_.id()},
-      layout::BoundsPush{depth, levels_.slots(), levels_.places(depth), levels_.places(depth - 1)},
-      levels_.places(depth - 1));
+      push_of(depth, levels.slots(), levels.places(depth), levels.places(depth - 1)),
+      levels.places(depth - 1));
   for (uint32_t level = depth - 1; level > 0;) {
     const bool two = level >= 2;
-    const layout::BoundsPush push{level, levels_.places(level), levels_.places(level - 1),
-                                  two ? levels_.places(level - 2) : 0};
+    const layout::BoundsPush push =
+        push_of(level, levels.places(level), levels.places(level - 1), two ? levels.places(level - 2) : 0);
     run(passes::bounds, {nodes_lo_.id(), nodes_hi_.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }
   if (traversal_ == Traversal::wide) {
-    const WideLevels wide(depth, levels_.slots());
+    const WideLevels wide(depth, levels.slots());
     run(passes::wide_nodes, {nodes_lo_.id(), nodes_hi_.id(), wide_nodes_.id()},
-        layout::BoundsPush{depth, levels_.slots(), 0, 0}, wide.end());
+        push_of(depth, levels.slots(), 0, 0), wide.end());
   }
 }
 
-void Tracing::build_boxes(const Buffer& geometry, const scene::Bounds& frame) {
-  grid_ = make_grid(frame);
-  const uint32_t zero = 0;
-  backend_.upload(extent_.id(), std::as_bytes(std::span(&zero, 1)));
+void Tracing::build_boxes(const Buffer& geometry, size_t object) {
+  const Tree& tree = trees_[object];
+  const layout::BoxGrid grid = layout::object_grid(records_[object]);
   // Two levels a dispatch; level `depth` are the quads.
-  const uint32_t depth = levels_.depth();
-  const auto written = [&](uint32_t level) { return level > 0 ? levels_.places(level - 1) : 0; };
-  if (block_count_ > 0) {
-    run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id(), extent_.id()},
-        layout::BoxesPush{depth, block_count_, written(depth), 0, grid_}, block_count_);
+  const uint32_t depth = tree.levels.depth();
+  const auto written = [&](uint32_t level) { return level > 0 ? tree.levels.places(level - 1) : 0; };
+  const auto push_of = [&](uint32_t level, uint32_t count, uint32_t above, uint32_t first_item) {
+    return layout::BoxesPush{level,           count,           written(level), above, grid,
+                             tree.first_node, tree.first_slot, first_item,     static_cast<uint32_t>(object)};
+  };
+  if (tree.blocks > 0) {
+    run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id(), extents_.id()},
+        push_of(depth, tree.blocks, 0, tree.first_block), tree.blocks);
   }
-  if (group_count_ > 0 || depth == 1) {
-    run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extent_.id(), leaf_groups_.id()},
-        layout::BoxesPush{depth, levels_.slots(), written(depth), group_count_, grid_},
-        depth == 1 ? written(depth) : group_count_);
+  if (tree.groups > 0 || depth == 1) {
+    run(passes::boxes_leaves,
+        {leaf_map_.id(), geometry.id(), boxes_.id(), extents_.id(), leaf_groups_.id()},
+        push_of(depth, tree.levels.slots(), tree.groups, tree.first_group),
+        depth == 1 ? written(depth) : tree.groups);
   }
   for (uint32_t level = depth - 2; depth > 2 && level > 0;) {
     const bool two = level >= 2;
-    const layout::BoxesPush push{level, levels_.places(level), written(level), two ? written(level - 1) : 0,
-                                 grid_};
+    const layout::BoxesPush push = push_of(level, tree.levels.places(level), two ? written(level - 1) : 0, 0);
     run(passes::boxes, {boxes_.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }
+}
+
+void Tracing::clear_pending() {
+  const uint32_t zero = 0;
+  backend_.upload(pending_.id(), std::as_bytes(std::span(&zero, 1)));
 }
 
 uint32_t Tracing::take_pending() {
@@ -151,27 +202,33 @@ uint32_t Tracing::take_pending() {
 }
 
 void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count,
-                       const TraceQuery& query, bool resume) {
+                       const TraceQuery& query, bool resume, const Buffer* roots) {
   std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
                                    rays.states.id(), rays.steps.id(), pending_.id()};
-  const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u};
-  const layout::TracePush push{count, levels_.depth(), resume ? 1u : 0u, loop_budget_, levels_.slots()};
+  const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u,
+                                                       roots != nullptr ? 1u : 0u};
+  layout::TracePush push{count, resume ? 1u : 0u, loop_budget_};
+  // Without roots nothing reads them; any words will do.
+  const std::array<BufferId, 2> of_objects = {objects_.id(),
+                                              roots != nullptr ? roots->id() : rays.steps.id()};
   if (uses_boxes()) {
-    buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extent_.id(), rays.trails.id()});
-    // Its loops have up to twice as many iterations a step as the others'.
-    run(query.shadow ? passes::occlude_boxes : passes::trace_boxes, buffers,
-        layout::BoxTracePush{count, push.depth, push.resume, (loop_budget_ + 1) / 2, grid_}, count,
-        constants);
+    buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extents_.id(), rays.trails.id()});
+    buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
+    push.budget = (loop_budget_ + 1) / 2;  // its loops have up to twice as many iterations a step as the others'
+    run(query.shadow ? passes::occlude_boxes : passes::trace_boxes, buffers, push, count, constants);
     return;
   }
   buffers.insert(buffers.end(), {nodes_lo_.id(), nodes_hi_.id()});
   if (traversal_ == Traversal::wide) {
     buffers.insert(buffers.end(), {wide_nodes_.id(), leaf_map_.id()});
+    buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
     run(query.shadow ? passes::occlude_wide : passes::trace_wide, buffers, push, count, constants);
   } else if (traversal_ == Traversal::octant) {
+    buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
     run(query.shadow ? passes::occlude_octant : passes::trace_octant, buffers, push, count, constants);
   } else {
     buffers.push_back(links_.id());
+    buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
     run(query.shadow ? passes::occlude_threaded : passes::trace_threaded, buffers, push, count, constants);
   }
 }
@@ -180,22 +237,21 @@ void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uin
   const uint32_t tiles = (count + layout::tile_rays - 1) / layout::tile_rays;
   run(passes::trace_tile,
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
-       boxes_.id(), leaf_map_.id(), extent_.id()},
-      layout::BoxTracePush{count, levels_.depth(), 0, loop_budget_, grid_}, tiles * layout::tile_lanes);
+       boxes_.id(), leaf_map_.id(), extents_.id(), objects_.id(), rays.steps.id()},
+      layout::TracePush{count, 0, loop_budget_}, tiles * layout::tile_lanes);
 }
 
 bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
-                    const Interrupted& interrupted) {
-  const uint32_t zero = 0;
+                    const Interrupted& interrupted, const Buffer* roots) {
   const bool tiles = traversal_ == Traversal::tile && query.common_origin && !query.any_hit && !query.steps;
-  bool resume = take_pending() != 0;
+  bool resume = query.restarted;
   do {
     if (interrupted && interrupted()) return false;
-    backend_.upload(pending_.id(), std::as_bytes(std::span(&zero, 1)));
+    clear_pending();
     if (tiles && !resume) {
       dispatch_tiles(geometry, rays, count);  // what does not go together is left to the next dispatch
     } else {
-      dispatch(geometry, rays, count, query, resume);
+      dispatch(geometry, rays, count, query, resume, roots);
     }
     resume = true;
   } while (take_pending() != 0);

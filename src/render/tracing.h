@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lodestone/geometry_image/atlas.h"
-#include "lodestone/layout/boxes.h"
+#include "lodestone/layout/objects.h"
 #include "lodestone/render/backend.h"
 #include "lodestone/render/hierarchy_levels.h"
 #include "lodestone/render/renderer.h"
@@ -22,13 +22,17 @@ using Interrupted = std::function<bool()>;
 // found.
 struct RayBuffers {
   RayBuffers() = default;
-  RayBuffers(Backend& backend, const std::string& prefix, uint64_t count)
+  // `placed`: for rays through instances.
+  RayBuffers(Backend& backend, const std::string& prefix, uint64_t count, bool placed = false)
       : rays(backend, {prefix + "rays", 2 * count, 16}),
         hits(backend, {prefix + "hits", count, 16}),
         states(backend, {prefix + "states", count, 16}),
         trails(backend, {prefix + "trails", count, 16}),
-        steps(backend, {prefix + "steps", count, 4}) {}
+        steps(backend, {prefix + "steps", count, 4}),
+        instances(backend, {prefix + "instances", placed ? count : 0, 4}),
+        places(backend, {prefix + "places", placed ? count : 0, 16}) {}
   Buffer rays, hits, states, trails, steps;
+  Buffer instances, places;
 };
 
 // What is asked of a run of rays.
@@ -37,54 +41,66 @@ struct TraceQuery {
   bool steps = false;          // count the nodes visited by each ray
   bool shadow = false;         // statistics call it `occlude`
   bool common_origin = false;  // runs of 64 rays start from one point and go nearly the same way
+  bool restarted = false;      // only those that `mask` has sent on
 };
 
 class Tracing {
  public:
-  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it. Throws Error(usage)
-  // where the device cannot run that traversal.
+  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it. With several objects
+  // `tile` becomes `wide`. Throws Error(usage) where the device cannot run that traversal.
   Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map, Traversal traversal,
           uint32_t loop_budget);
 
   Traversal traversal() const { return traversal_; }  // what `automatic` became
 
-  // The bounds of all quads, and of the nodes above them. `frame` holds all of the surface.
-  void build(const Buffer& geometry, const scene::Bounds& frame);
+  // Of the objects from `first` on: the bounds of all quads, and of the nodes above them. `boxes`: one an
+  // object, round all of its surface.
+  void build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes, size_t first);
 
-  // The first `count` rays to their end, in as many dispatches as the budget of each needs; those that `mask`
-  // sends on, if `pending` says that there are some. False: interrupted.
+  // The first `count` rays to their end, in as many dispatches as the budget of each needs. `roots`: a word a
+  // ray says through which object it goes; null: all go through the first. False: interrupted.
   bool trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
-             const Interrupted& interrupted);
+             const Interrupted& interrupted, const Buffer* roots = nullptr);
 
-  // Rays that are not at their end: passes that send rays on count them here.
+  const Buffer& objects() const { return objects_; }  // layout::ObjectRecord
+
+  // Rays that are not at their end: passes that send rays on count them here, from zero.
   const Buffer& pending() const { return pending_; }
+  void clear_pending();
   uint32_t take_pending();
 
  private:
   template <class Push>
   void run(const PassDecl& pass, const std::vector<BufferId>& buffers, const Push& push, uint32_t invocations,
            const std::array<uint32_t, pass_constants>& constants = {});
-  void build_links();
-  void build_nodes(const Buffer& geometry);
-  void build_boxes(const Buffer& geometry, const scene::Bounds& frame);
+  struct Tree {
+    HierarchyLevels levels;
+    uint32_t first_node, first_slot, first_wide;
+    uint32_t first_block, blocks, first_group, groups;  // what boxes_blocks and boxes_leaves work through
+  };
+  void place_trees(const geometry_image::Atlas& atlas);
+  void build_links(const Tree& tree);
+  void build_nodes(const Buffer& geometry, const Tree& tree);
+  void build_boxes(const Buffer& geometry, size_t object);
   bool uses_boxes() const {
     return traversal_ == Traversal::tile || (traversal_ == Traversal::wide && !on_cpu_);
   }
   void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count);
   void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
-                bool resume);
+                bool resume, const Buffer* roots);
 
   Backend& backend_;
   const Buffer& leaf_map_;
   bool on_cpu_;
   Traversal traversal_;
   uint32_t loop_budget_;
-  HierarchyLevels levels_;
-  layout::BoxGrid grid_{};
+  std::vector<Tree> trees_;  // one an object
+  uint64_t node_count_ = 0, wide_count_ = 0;
+  std::vector<layout::ObjectRecord> records_;
+  Buffer objects_;                                   // the same on the device
   Buffer nodes_lo_, nodes_hi_, links_, wide_nodes_;  // 32 bits, and the CPU's copy in 16
-  Buffer leaf_blocks_, leaf_groups_;                 // what boxes_blocks and boxes_leaves work through
-  uint32_t block_count_ = 0, group_count_ = 0;
-  Buffer boxes_, extent_;  // 16 bits
+  Buffer leaf_blocks_, leaf_groups_;
+  Buffer boxes_, extents_;  // 16 bits
   Buffer pending_;
 };
 

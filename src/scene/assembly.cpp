@@ -41,19 +41,22 @@ void check_limit(const Scene& scene, uint64_t count, uint64_t limit, const char*
   }
 }
 
-Totals count(const Scene& scene) {
+void add_node(const Scene& scene, const Node& node, Totals& totals) {
+  const Mesh& mesh = scene.meshes[node.mesh];
+  totals.vertices += mesh.positions.size();
+  totals.triangles += mesh.triangles.size();
+  totals.parts += mesh.parts.size();
+  for (const MorphTarget& target : mesh.targets) totals.morphs += target.vertices.size();
+  // A vertex that the skin leaves out still needs one influence.
+  totals.influences += mesh.positions.size() + mesh.influences.size();
+  totals.weights += mesh.targets.size();
+  totals.matrices += matrices_of(scene, node);
+}
+
+Totals count(const Scene& scene, const Division& division) {
   Totals totals;
-  for (const Node& node : scene.nodes) {
-    if (node.mesh == none) continue;
-    const Mesh& mesh = scene.meshes[node.mesh];
-    totals.vertices += mesh.positions.size();
-    totals.triangles += mesh.triangles.size();
-    totals.parts += mesh.parts.size();
-    for (const MorphTarget& target : mesh.targets) totals.morphs += target.vertices.size();
-    // A vertex that the skin leaves out still needs one influence.
-    totals.influences += mesh.positions.size() + mesh.influences.size();
-    totals.weights += mesh.targets.size();
-    totals.matrices += matrices_of(scene, node);
+  for (const ObjectNodes& object : division.objects) {
+    for (const uint32_t node : object.nodes) add_node(scene, scene.nodes[node], totals);
   }
   if (totals.triangles == 0)
     fail_input(scene.name, "no node places a mesh with triangles; there is nothing to draw");
@@ -187,33 +190,63 @@ Assembly allocate(const Totals& totals) {
   return assembly;
 }
 
-}  // namespace
+// `next`: where the placement of the node goes; becomes that of the one after it.
+void add_placement(const Scene& scene, uint32_t index, Placement& next, Assembly& assembly) {
+  const Node& node = scene.nodes[index];
+  const Mesh& mesh = scene.meshes[node.mesh];
+  next.node = index;
+  next.mesh = node.mesh;
+  assembly.placements.push_back(next);
+  copy_vertices(mesh, next.first_vertex, assembly);
+  copy_triangles(mesh, next, assembly);
+  copy_morphs(mesh, next, assembly);
+  copy_influences(mesh, next, is_skinned(scene, node), assembly);
+  assembly.has_tangents = assembly.has_tangents || !mesh.tangents.empty();
+  next.first_vertex += static_cast<uint32_t>(mesh.positions.size());
+  next.first_triangle += static_cast<uint32_t>(mesh.triangles.size());
+  next.first_weight += static_cast<uint32_t>(mesh.targets.size());
+  next.first_matrix += static_cast<uint32_t>(matrices_of(scene, node));
+}
 
-Assembly assemble(const Scene& scene) {
-  const Totals totals = count(scene);
+Assembly assemble(const Scene& scene, const Division& division) {
+  const Totals totals = count(scene, division);
   require_room(scene, totals);
   Assembly assembly = allocate(totals);
-  Placement place;
-  for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-    const Node& node = scene.nodes[n];
-    if (node.mesh == none) continue;
-    const Mesh& mesh = scene.meshes[node.mesh];
-    place.node = n;
-    place.mesh = node.mesh;
-    assembly.placements.push_back(place);
-    copy_vertices(mesh, place.first_vertex, assembly);
-    copy_triangles(mesh, place, assembly);
-    copy_morphs(mesh, place, assembly);
-    copy_influences(mesh, place, is_skinned(scene, node), assembly);
-    assembly.has_tangents = assembly.has_tangents || !mesh.tangents.empty();
-    place.first_vertex += static_cast<uint32_t>(mesh.positions.size());
-    place.first_triangle += static_cast<uint32_t>(mesh.triangles.size());
-    place.first_weight += static_cast<uint32_t>(mesh.targets.size());
-    place.first_matrix += static_cast<uint32_t>(matrices_of(scene, node));
+  Placement next;
+  for (const ObjectNodes& nodes : division.objects) {
+    Object object;
+    object.rigid = nodes.rigid;
+    object.first_placement = static_cast<uint32_t>(assembly.placements.size());
+    object.first_vertex = next.first_vertex;
+    object.first_triangle = next.first_triangle;
+    next.rigid = nodes.rigid ? 1 : 0;
+    for (const uint32_t node : nodes.nodes) add_placement(scene, node, next, assembly);
+    object.placements = static_cast<uint32_t>(assembly.placements.size()) - object.first_placement;
+    object.vertices = next.first_vertex - object.first_vertex;
+    object.triangles = next.first_triangle - object.first_triangle;
+    assembly.objects.push_back(object);
   }
-  assembly.weight_count = place.first_weight;
-  assembly.matrix_count = place.first_matrix;
+  assembly.instances = division.instances;
+  assembly.weight_count = next.first_weight;
+  assembly.matrix_count = next.first_matrix;
   return assembly;
+}
+
+}  // namespace
+
+Assembly assemble(const Scene& scene, Instancing instancing) {
+  return assemble(scene, divide(scene, instancing));
+}
+
+Assembly assemble_object(const Scene& scene, const Assembly& assembly, size_t index) {
+  const Object& object = assembly.objects[index];
+  Division alone;
+  ObjectNodes& nodes = alone.objects.emplace_back();
+  nodes.rigid = object.rigid;
+  for (uint32_t i = 0; i < object.placements; ++i)
+    nodes.nodes.push_back(assembly.placements[object.first_placement + i].node);
+  alone.instances.push_back({0, object.rigid ? nodes.nodes.front() : none});
+  return assemble(scene, alone);
 }
 
 }  // namespace lodestone::scene

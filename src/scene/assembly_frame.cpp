@@ -86,7 +86,9 @@ std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assemb
     const uint32_t first = assembly.placements[i].first_matrix;
     const bool last = i + 1 == assembly.placements.size();
     const uint32_t end = last ? assembly.matrix_count : assembly.placements[i + 1].first_matrix;
-    const std::vector<glm::mat4> matrices = palette(scene, pose, assembly.placements[i].node);
+    const std::vector<glm::mat4> matrices = assembly.placements[i].rigid != 0
+                                                ? std::vector<glm::mat4>{glm::mat4(1)}
+                                                : palette(scene, pose, assembly.placements[i].node);
     check_size(matrices.size(), end - first, "the matrices of a pose");
     for (uint32_t m = 0; m < matrices.size(); ++m) {
       for (int r = 0; r < 3; ++r) {
@@ -97,6 +99,13 @@ std::vector<glm::vec4> frame_matrices(const Scene& scene, const Assembly& assemb
     }
   }
   return rows;
+}
+
+std::vector<glm::mat4> frame_instances(const Assembly& assembly, const Pose& pose) {
+  std::vector<glm::mat4> matrices;
+  for (const Instance& instance : assembly.instances)
+    matrices.push_back(instance.node == none ? glm::mat4(1) : pose.node_world[instance.node]);
+  return matrices;
 }
 
 std::vector<glm::vec3> blended_positions(const Assembly& assembly, const std::vector<float>& weights,
@@ -112,6 +121,18 @@ std::vector<glm::vec3> rest_positions(const Scene& scene, const Assembly& assemb
   const Pose rest = evaluate(scene, none, 0);
   return blended_positions(assembly, frame_weights(scene, assembly, rest),
                            frame_matrices(scene, assembly, rest));
+}
+
+std::vector<glm::vec3> placed_positions(const Scene& scene, const Assembly& assembly, const Pose& pose) {
+  std::vector<glm::vec3> positions = blended_positions(assembly, frame_weights(scene, assembly, pose),
+                                                       frame_matrices(scene, assembly, pose));
+  for (const Object& object : assembly.objects) {
+    if (!object.rigid) continue;
+    const glm::mat4& matrix = pose.node_world[assembly.placements[object.first_placement].node];
+    for (uint32_t v = object.first_vertex; v < object.first_vertex + object.vertices; ++v)
+      positions[v] = glm::vec3(matrix * glm::vec4(positions[v], 1));
+  }
+  return positions;
 }
 
 std::vector<glm::vec3> blended_normals(const Assembly& assembly, const std::vector<float>& weights,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lodestone/layout/arithmetic.h"
+
 namespace lodestone::scene {
 namespace {
 
@@ -78,6 +80,14 @@ Bounds PoseBox::of_node(const Scene& scene, const Pose& pose, uint32_t node) con
   }
   box.lo -= reach * margin;
   box.hi += reach * margin;
+  return box;
+}
+
+Bounds PoseBox::of_mesh(uint32_t mesh) const {
+  Bounds box = meshes_[mesh].base;
+  const glm::vec3 reach(margin * glm::max(layout::largest_abs(box.lo), layout::largest_abs(box.hi)));
+  box.lo -= reach;
+  box.hi += reach;
   return box;
 }
 

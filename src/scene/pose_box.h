@@ -19,6 +19,9 @@ class PoseBox {
   // margin of 2^-13 of the largest coordinate where no mesh has a skin; with skins seldom more than a few
   // times as large as need be. Empty where there are no triangles.
   Bounds of(const Scene& scene, const Pose& pose) const;
+  // The same of one node's mesh, in the world and in its own space.
+  Bounds of_node(const Scene& scene, const Pose& pose, uint32_t node) const;
+  Bounds of_mesh(uint32_t mesh) const;
 
  private:
   struct MeshBox {
@@ -27,7 +30,6 @@ class PoseBox {
     float least = 1, most = 1;    // sums of a vertex's skin weights
     bool mixes = true;            // no weight is negative
   };
-  Bounds of_node(const Scene& scene, const Pose& pose, uint32_t node) const;
 
   PoseReach reach_;
   std::vector<MeshBox> meshes_;

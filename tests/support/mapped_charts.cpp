@@ -96,7 +96,8 @@ ReadyScene straddled_squares(const Straddled& options) {
       geometry_image::assign_slots(charts, std::vector<geometry_image::ChartBox>(charts.size()),
                                    geometry_image::ChartOrder::median, ready.scene.name);
   atlas.kind = geometry_image::kind_of(charts);
-  atlas.depth = geometry_image::tree_depth(slots);
+  atlas.objects = {{geometry_image::tree_depth(slots), 0, static_cast<uint32_t>(slots), 0,
+                    static_cast<uint32_t>(texels.size())}};
   atlas.leaf_map = geometry_image::make_leaf_map(charts, slots);
   atlas.report.quads = 0;
   for (const layout::ChartRecord& chart : charts)

@@ -171,7 +171,7 @@ TEST_F(AtlasFile, IsRefusedWhereItsIndicesLeadAstray) {
   refuse([](Atlas& a) { a.charts.clear(); }, "no chart");
   refuse([](Atlas& a) { a.kind = AtlasKind(9); }, "charts of another kind");
   refuse([](Atlas& a) { a.kind = AtlasKind::grid; }, "charts of another kind");
-  refuse([](Atlas& a) { ++a.depth; }, "wrong depth");
+  refuse([](Atlas& a) { ++a.objects[0].depth; }, "wrong depth");
   refuse([](Atlas& a) { a.charts[1].kind = 7; }, "unknown kind");
   refuse([](Atlas& a) { a.charts[0].width = 0; }, "without a quad");
   refuse([](Atlas& a) { a.charts[0].width = a.charts[0].height = 0xffffffffu; }, "do not follow");

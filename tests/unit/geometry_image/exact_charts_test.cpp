@@ -19,7 +19,7 @@ glm::uvec4 texel(uint32_t triangle, float b1, float b2, uint32_t chart) {
 TEST(ExactCharts, SampleCornersMidpointsAndCentroidOfATriangle) {
   const Atlas atlas = atlas_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), AtlasKind::exact);
   EXPECT_EQ(atlas.kind, AtlasKind::exact);
-  EXPECT_EQ(atlas.depth, 1u);
+  EXPECT_EQ(atlas.objects[0].depth, 1u);
   ASSERT_EQ(atlas.charts.size(), 1u);
   const layout::ChartRecord& chart = atlas.charts[0];
   EXPECT_EQ(chart.first_texel, 0u);
@@ -61,7 +61,7 @@ TEST(ExactCharts, KeepTheNumbersOfTheInputsTriangles) {
     EXPECT_EQ(atlas.texel_map[9 * i + 4], texel(2 * i, 1 / 3.0f, 1 / 3.0f, i));
   }
   EXPECT_EQ(atlas.report.triangles, 5u);
-  EXPECT_EQ(atlas.depth, 2u);
+  EXPECT_EQ(atlas.objects[0].depth, 2u);
 }
 
 // Each small triangle of the quads' halves (a, b, c) and (d, c, b), in the triangle's own coordinates.

@@ -69,8 +69,8 @@ void expect_charts_to_be_subtrees(const Atlas& atlas) {
     covered += chart.slot_count;
   }
   EXPECT_EQ(covered, atlas.leaf_map.size());
-  EXPECT_GE(uint64_t(1) << (2 * atlas.depth), atlas.leaf_map.size());
-  EXPECT_TRUE(atlas.depth == 1 || uint64_t(1) << (2 * atlas.depth - 2) < atlas.leaf_map.size());
+  EXPECT_GE(uint64_t(1) << (2 * atlas.objects[0].depth), atlas.leaf_map.size());
+  EXPECT_TRUE(atlas.objects[0].depth == 1 || uint64_t(1) << (2 * atlas.objects[0].depth - 2) < atlas.leaf_map.size());
 }
 
 TEST(Hierarchy, HoldsEveryQuadOnceAndEveryChartInASubtree) {
@@ -102,7 +102,7 @@ TEST(Hierarchy, HoldsThinChartsWithLittleWaste) {
 
 TEST(Hierarchy, HoldsASingleQuad) {
   const Atlas atlas = atlas_of(height_field(2, 2));
-  EXPECT_EQ(atlas.depth, 1u);
+  EXPECT_EQ(atlas.objects[0].depth, 1u);
   EXPECT_EQ(atlas.leaf_map, (std::vector<glm::uvec2>{{0, 2}}));
   expect_charts_to_be_subtrees(atlas);
 }

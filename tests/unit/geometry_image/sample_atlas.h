@@ -35,7 +35,8 @@ inline Atlas sample_atlas() {
   atlas.texel_map = make_texel_map(atlas.charts);
   const uint64_t slots =
       assign_slots(atlas.charts, std::vector<ChartBox>(atlas.charts.size()), ChartOrder::median, scene.name);
-  atlas.depth = tree_depth(slots);
+  atlas.objects.push_back({tree_depth(slots), 0, static_cast<uint32_t>(slots), 0,
+                           static_cast<uint32_t>(atlas.texel_map.size())});
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.quads = quad_count(atlas.charts[0]) + 2 * 3;
   atlas.report.texels = atlas.texel_map.size();
@@ -45,7 +46,14 @@ inline Atlas sample_atlas() {
 
 inline void expect_equal(const Atlas& a, const Atlas& b) {
   EXPECT_EQ(a.kind, b.kind);
-  EXPECT_EQ(a.depth, b.depth);
+  ASSERT_EQ(a.objects.size(), b.objects.size());
+  for (size_t i = 0; i < a.objects.size(); ++i) {
+    EXPECT_EQ(a.objects[i].depth, b.objects[i].depth);
+    EXPECT_EQ(a.objects[i].first_slot, b.objects[i].first_slot);
+    EXPECT_EQ(a.objects[i].slots, b.objects[i].slots);
+    EXPECT_EQ(a.objects[i].first_texel, b.objects[i].first_texel);
+    EXPECT_EQ(a.objects[i].texels, b.objects[i].texels);
+  }
   ASSERT_EQ(a.charts.size(), b.charts.size());
   for (size_t i = 0; i < a.charts.size(); ++i) {
     const layout::ChartRecord &x = a.charts[i], &y = b.charts[i];
