@@ -30,18 +30,20 @@ class EnterInstances : public Kernel<Probe> {
     if (push_.round != 0) load_progress(index);
     if (push_.round == 0 && push_.resume == 0 && !(ray_.tmax < 0.0f)) this->probe.ray();
     slabs_ = layout::make_slabs(
-        ray_, layout::max2(upper_extent(), layout::largest_abs(ray_.origin)) * push_.rounding);
-    layout::Walk walk{place_.z & 255, place_.x, place_.y};
+        ray_, layout::max2(push_.extent, layout::largest_abs(ray_.origin)) * push_.rounding);
+    layout::BoxWalk walk{place_.z & 255, place_.x, place_.y, uvec4(0)};
+    if (walk.levels != 0) walk.trail = this->load(trails_, ray_index_);
     if (push_.round != 0 && (place_.z & layout::place_paused) == 0) {
-      take_hit(index, layout::walk_address(walk));
-      walk = layout::walk_on(walk);
+      take_hit(index, walk.index);
+      walk = layout::box_walk_on(walk);
     }
     if ((any_hit_ && best_.primitive != layout::no_index) || ray_.tmax < 0.0f) walk.depth = layout::walk_done;
     const uint32_t instance = next_instance(walk);
     this->store(found_, ray_index_, instance);
     if (instance != layout::no_index) {
       const uint32_t paused = instance == layout::enter_paused ? layout::place_paused : 0;
-      this->store(places_, ray_index_, uvec4(walk.order, walk.turns, walk.depth | paused, place_.w));
+      this->store(places_, ray_index_, uvec4(walk.index, walk.levels, walk.depth | paused, place_.w));
+      this->store(trails_, ray_index_, walk.trail);
       state_.z = layout::trace_unfinished;
       this->add(block_counts_, index / layout::compact_block, 1);
     } else {
@@ -58,9 +60,18 @@ class EnterInstances : public Kernel<Probe> {
   }
 
  private:
-  float upper_extent() {
-    return layout::max2(layout::largest_abs(as_vec3(this->load(upper_lo_, 0))),
-                        layout::largest_abs(as_vec3(this->load(upper_hi_, 0))));
+  // The instance of a leaf, and where the ray enters its bound.
+  struct Entry {
+    uint32_t instance;
+    float enter;
+    bool inside;
+  };
+  Entry enter_leaf(uint32_t leaf) {
+    const uint32_t instance = this->load(keys_, 2 * uint64_t(leaf) + 1);
+    const glm::vec3 lo = as_vec3(this->load(instance_lo_, instance)),
+                    hi = as_vec3(this->load(instance_hi_, instance));
+    const float enter = layout::slab_enter(slabs_, lo, hi, ray_.tmin);
+    return {instance, enter, enter <= layout::slab_exit(slabs_, lo, hi, best_.t)};
   }
 
   // Of the rounds before.
@@ -74,43 +85,50 @@ class EnterInstances : public Kernel<Probe> {
     if (write_steps_) steps_before_ = this->load(steps_, ray_index_) + this->load(local_steps_, index);
   }
 
-  // What was met in the instance at the leaf `address`, if it is nearer than all before.
-  void take_hit(uint32_t index, uint32_t address) {
+  // What was met in the instance at a leaf, if it is nearer than all before.
+  void take_hit(uint32_t index, uint32_t leaf) {
     const uvec4 met = this->load(local_hits_, index);
-    const uvec4 lo = this->load(upper_lo_, address), hi = this->load(upper_hi_, address);
-    const uint32_t instance = lo.w & ~layout::leaf_flag;
-    const float t = layout::max2(layout::uintBitsToFloat(met.x),
-                                 layout::slab_enter(slabs_, as_vec3(lo), as_vec3(hi), ray_.tmin));
-    if (met.w == layout::no_index || !(t < best_.t || (t == best_.t && instance < best_instance_))) return;
+    const Entry entry = enter_leaf(leaf);
+    const float t = layout::max2(layout::uintBitsToFloat(met.x), entry.enter);
+    if (met.w == layout::no_index || !(t < best_.t || (t == best_.t && entry.instance < best_instance_)))
+      return;
     best_ = {t, layout::uintBitsToFloat(met.y), layout::uintBitsToFloat(met.z), met.w};
-    best_instance_ = instance;
+    best_instance_ = entry.instance;
   }
 
   // From the place `walk` on, which goes to that instance's leaf. no_index: there is none; enter_paused: the
   // budget is spent.
-  uint32_t next_instance(layout::Walk& walk) {
-    for (uint32_t budget = push_.budget; walk.depth != layout::walk_done;) {
-      const uint32_t address = layout::walk_address(walk);
-      const uvec4 lo = this->load(upper_lo_, address), hi = this->load(upper_hi_, address);
+  uint32_t next_instance(layout::BoxWalk& walk) {
+    const layout::BoxRay box_ray = layout::make_box_ray(slabs_, push_.grid);
+    for (uint32_t budget = push_.budget; walk.depth != layout::walk_done && budget != 0; --budget) {
+      if (walk.depth == push_.depth) {
+        const Entry entry = enter_leaf(walk.index);
+        if (entry.inside) return entry.instance;
+        walk = layout::box_walk_on(walk);
+        continue;
+      }
+      const uint64_t record = 3 * (uint64_t(layout::level_base(walk.depth)) + walk.index);
+      const uvec4 x = this->load(boxes_, record), y = this->load(boxes_, record + 1),
+                  z = this->load(boxes_, record + 2);
       ++visits_;
-      this->probe.step(1);
-      const float enter = layout::slab_enter(slabs_, as_vec3(lo), as_vec3(hi), ray_.tmin);
-      const bool inside = enter <= layout::slab_exit(slabs_, as_vec3(lo), as_vec3(hi), best_.t);
-      if (inside && walk.depth == push_.depth) return lo.w & ~layout::leaf_flag;
-      walk = inside ? layout::walk_down(walk, lo.w >> 2 * slabs_.octant & 3) : layout::walk_on(walk);
-      if (--budget == 0) break;
+      this->probe.step(4);
+      const uint32_t list =
+          layout::box_list(layout::box_keys(x, y, z, box_ray, slabs_.octant, ray_.tmin, best_.t));
+      walk = list >> 8 != 0 ? layout::box_walk_down(walk, list) : layout::box_walk_on(walk);
     }
     return walk.depth == layout::walk_done ? layout::no_index : layout::enter_paused;
   }
 
   Quads rays_ = this->quads(0), hits_ = this->quads(1);
   Words hit_instances_ = this->words(2);
-  Quads states_ = this->quads(3), places_ = this->quads(4);
-  Words steps_ = this->words(5);
-  Quads upper_lo_ = this->quads(6), upper_hi_ = this->quads(7);
-  Words owners_ = this->words(9);
-  Quads local_hits_ = this->quads(10);
-  Words local_steps_ = this->words(11), found_ = this->words(12), block_counts_ = this->words(13);
+  Quads states_ = this->quads(3), places_ = this->quads(4), trails_ = this->quads(5);
+  Words steps_ = this->words(6);
+  Quads boxes_ = this->quads(7);
+  Words keys_ = this->words(8);
+  Quads instance_lo_ = this->quads(9), instance_hi_ = this->quads(10);
+  Words owners_ = this->words(11);
+  Quads local_hits_ = this->quads(12);
+  Words local_steps_ = this->words(13), found_ = this->words(14), block_counts_ = this->words(15);
   layout::EnterPush push_ = this->template push<layout::EnterPush>();
   bool any_hit_ = this->constant(0) != 0, write_steps_ = this->constant(1) != 0;
 

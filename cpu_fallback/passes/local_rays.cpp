@@ -25,11 +25,11 @@ class LocalRays : public Kernel<Probe> {
                     row1 = as_vec4(this->load(instances_, record + 1)),
                     row2 = as_vec4(this->load(instances_, record + 2));
     const uvec4 rest = this->load(instances_, record + 6);
-    const glm::vec3 origin =
-        layout::flush_tiny3(layout::transformed_point(as_vec3(from), row0, row1, row2));
+    const glm::vec3 origin = layout::flush_tiny3(layout::transformed_point(as_vec3(from), row0, row1, row2));
     const glm::vec3 direction =
         layout::flush_tiny3(layout::transformed_direction(as_vec3(along), row0, row1, row2));
-    // In an instance behind the one that a mask let the ray through in, everything at tmin is still to be met.
+    // In an instance behind the one that a mask let the ray through in, everything at tmin is still to be
+    // met.
     uint32_t next = state.w;
     if (instance > place.w) next = 0;
     if (instance < place.w) next = layout::no_index;

@@ -91,8 +91,8 @@ struct Shearing {
 };
 
 template <class Block>
-HWY_ATTR inline void test_quad(Block& block, const TraceTree& tree, Packet& packet, uint32_t address, uint32_t lane, Mask entered,
-                               Floats enter) {
+HWY_ATTR inline void test_quad(Block& block, const TraceTree& tree, Packet& packet, uint32_t address,
+                               uint32_t lane, Mask entered, Floats enter) {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
   const uint32_t texel = tree.leaf_texel(address), stride = tree.leaf_stride(address);

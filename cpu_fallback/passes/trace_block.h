@@ -96,7 +96,8 @@ class TraceBlock : public NodesKernel<Probe, 10> {
     glm::vec3 lo = origin(first), hi = lo;
     for (uint32_t i = first; i < first + count; ++i) {
       const glm::vec3 other = direction(i);
-      if (this->root(i) != object || octant_of(other) != octant || !(layout::dot3(lead, other) >= 0.98f)) return false;
+      if (this->root(i) != object || octant_of(other) != octant || !(layout::dot3(lead, other) >= 0.98f))
+        return false;
       lo = layout::min3(lo, origin(i));
       hi = layout::max3(hi, origin(i));
     }
@@ -132,7 +133,7 @@ class TraceBlock : public NodesKernel<Probe, 10> {
     if (this->constant(1) != 0) this->steps_.store1(index, visits);
     this->probe.read(8);
     this->probe.write(8);
-    if (this->push_.resume == 0 && is_ray) this->probe.ray();
+    if (!this->instanced() && this->push_.resume == 0 && is_ray) this->probe.ray();
   }
 
   // One node was read and tested against the `rays` rays of a packet, of which `active` enter it.

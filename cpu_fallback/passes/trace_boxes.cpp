@@ -57,8 +57,7 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
   }
 
   void test_leaves(const layout::BoxWalk& walk, uint32_t list, const layout::Ray& ray,
-                   const layout::Slabs& slabs, const layout::Shear& shear, uint32_t next,
-                   layout::Hit& best) {
+                   const layout::Slabs& slabs, const layout::Shear& shear, uint32_t next, layout::Hit& best) {
     for (uint32_t i = 0; i < list >> 8; ++i) {
       const uint64_t slot = object_.first_slot + 4 * uint64_t(walk.index) + (list >> 2 * i & 3u);
       const uint32_t texel = this->load(leaf_map_, 2 * slot), stride = this->load(leaf_map_, 2 * slot + 1);

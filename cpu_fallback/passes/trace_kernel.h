@@ -39,7 +39,7 @@ class TraceKernel : public Kernel<Probe> {
     state = {{ray.tmax, 0, 0, layout::no_index}, {0, 0, layout::trace_unfinished, layout::no_index}};
     visits_ = 0;
     if (push_.resume == 0) {
-      if (!(ray.tmax < 0.0f)) this->probe.ray();
+      if (!instanced_ && !(ray.tmax < 0.0f)) this->probe.ray();  // else counted where it enters
       return true;
     }
     state.place = this->load(states_, index);
@@ -69,8 +69,8 @@ class TraceKernel : public Kernel<Probe> {
                  uint32_t next, float enter, layout::Hit& best) {
     layout::intersect_quad(as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
                            as_vec3(this->load(geometry_, texel + stride)),
-                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, next, enter,
-                           texel, best);
+                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, next, enter, texel,
+                           best);
     this->probe.triangles(2);
   }
 
@@ -88,6 +88,7 @@ class TraceKernel : public Kernel<Probe> {
   }
 
   bool any_hit() const { return any_hit_; }
+  bool instanced() const { return instanced_; }
 
   Quads rays_ = this->quads(0), geometry_ = this->quads(1), hits_ = this->quads(2), states_ = this->quads(3);
   Words steps_ = this->words(4), pending_ = this->words(5);

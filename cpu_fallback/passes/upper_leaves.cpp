@@ -1,44 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include "lodestone/cpu_fallback/passes/passes.h"
-#include "lodestone/layout/objects.h"
+#include "lodestone/cpu_fallback/passes/boxes.h"
 
 namespace lodestone::cpu_fallback {
 namespace {
 
-using glm::uvec4;
-
 template <class Probe>
-class UpperLeaves : public Kernel<Probe> {
+class UpperLeaves : public BoxesKernel<Probe> {
  public:
-  using Kernel<Probe>::Kernel;
+  using BoxesKernel<Probe>::BoxesKernel;
 
   void operator()(uint32_t index) {
-    const layout::Bound c0 = bound_leaf(4 * index), c1 = bound_leaf(4 * index + 1),
-                        c2 = bound_leaf(4 * index + 2), c3 = bound_leaf(4 * index + 3);
-    const layout::Bound parent = layout::join(layout::join(c0, c1), layout::join(c2, c3));
-    const uint32_t address = layout::level_base(push_.depth - 1) + index;
-    this->store(upper_lo_, address, as_bits(parent.lo, layout::child_order(c0, c1, c2, c3)));
-    this->store(upper_hi_, address, as_bits(parent.hi, 0));
+    const layout::Box children[4] = {leaf_box(4 * index), leaf_box(4 * index + 1), leaf_box(4 * index + 2),
+                                     leaf_box(4 * index + 3)};
+    this->store_record(boxes_, this->push_.depth - 1, index, children);
   }
 
  private:
-  layout::Bound bound_leaf(uint32_t leaf) {
-    layout::Bound bound = layout::empty_bound();
-    uint32_t instance = layout::empty_slot;
-    if (leaf < push_.instances) {
-      instance = this->load(keys_, 2 * uint64_t(leaf) + 1);
-      bound = {as_vec3(this->load(instance_lo_, instance)), as_vec3(this->load(instance_hi_, instance))};
-    }
-    const uint32_t address = layout::level_base(push_.depth) + leaf;
-    this->store(upper_lo_, address, as_bits(bound.lo, layout::leaf_flag | instance));
-    this->store(upper_hi_, address, as_bits(bound.hi, 0));
-    return bound;
+  layout::Box leaf_box(uint32_t leaf) {
+    if (leaf >= this->push_.count) return layout::empty_box();
+    const uint32_t instance = this->load(keys_, 2 * uint64_t(leaf) + 1);
+    const glm::vec3 lo = as_vec3(this->load(instance_lo_, instance)),
+                    hi = as_vec3(this->load(instance_hi_, instance));
+    if (!(lo.x <= hi.x)) return layout::empty_box();
+    return layout::bound_box(lo, hi, this->push_.grid, per_step_);
   }
 
   Words keys_ = this->words(0);
-  Quads instance_lo_ = this->quads(1), instance_hi_ = this->quads(2);
-  Quads upper_lo_ = this->quads(3), upper_hi_ = this->quads(4);
-  layout::UpperPush push_ = this->template push<layout::UpperPush>();
+  Quads instance_lo_ = this->quads(1), instance_hi_ = this->quads(2), boxes_ = this->quads(3);
+  glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
 };
 
 LODESTONE_BLOCK_FUNCTION(static, upper_leaves, UpperLeaves)

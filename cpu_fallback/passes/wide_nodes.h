@@ -30,8 +30,8 @@ static_assert(sizeof(WideNode) == render::wide_node_bytes);
 struct WideGrid {
   glm::vec4 base, step{0, 0, 0, 0};  // w: 0
 
-  // `lo`, `hi`: bound of the whole hierarchy. A flat axis gets a thousandth of the largest one, so that an empty
-  // child, whose low plane is 65535 and whose high plane is 0, is empty along every axis.
+  // `lo`, `hi`: bound of the whole hierarchy. A flat axis gets a thousandth of the largest one, so that an
+  // empty child, whose low plane is 65535 and whose high plane is 0, is empty along every axis.
   WideGrid(const glm::vec3& lo, const glm::vec3& hi) : base(lo, 0) {
     const glm::vec3 size = hi - lo;
     const float largest = std::max(layout::max_component(size), 1e-30f);

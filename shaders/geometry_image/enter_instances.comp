@@ -10,18 +10,20 @@ QUADS(0, readonly, rays);
 QUADS(1, restrict, hits);
 WORDS(2, restrict, hit_instances);
 QUADS(3, restrict, states);
-QUADS(4, restrict, places);  // in the upper level: order, turns, depth, and the instance that a mask let it through in
-WORDS(5, restrict, steps);
-QUADS(6, readonly, upper_lo);
-QUADS(7, readonly, upper_hi);
-QUADS(8, readonly, instances);
+QUADS(4, restrict, places);  // in the upper level: index, levels, depth, and the instance that a mask let the ray through in
+QUADS(5, restrict, trails);
+WORDS(6, restrict, steps);
+QUADS(7, readonly, boxes);
+WORDS(8, readonly, keys);
+QUADS(9, readonly, instance_lo);
+QUADS(10, readonly, instance_hi);
 // Of the round before: its rays, and what they found in their instances.
-WORDS(9, readonly, owners);
-QUADS(10, readonly, local_hits);
-WORDS(11, readonly, local_steps);
-WORDS(12, writeonly, found);  // of each ray the instance, enter_paused or no_index
-STRUCTS(13, restrict, uint, block_counts);  // of rays that go on, by blocks of compact_block rays of this round
-COUNTERS(14)
+WORDS(11, readonly, owners);
+QUADS(12, readonly, local_hits);
+WORDS(13, readonly, local_steps);
+WORDS(14, writeonly, found);  // of each ray the instance, enter_paused or no_index
+STRUCTS(15, restrict, uint, block_counts);  // of rays that go on, by blocks of compact_block rays of this round
+COUNTERS(16)
 PUSH(EnterPush, push);
 
 layout(constant_id = 2) const uint any_hit = 0u;  // as in `trace`
@@ -37,19 +39,29 @@ Ray load_ray(uint index) {
   return stored_ray(from, along);
 }
 
-float upper_extent() {
+// The instance of a leaf, and where the ray enters its bound.
+struct Entry {
+  uint instance;
+  float enter;
+  bool inside;
+};
+Entry enter_leaf(uint leaf, Ray ray, Slabs slabs, float tmax) {
+  Entry entry;
   uvec4 lo;
   uvec4 hi;
-  LOAD4(lo, upper_lo, 0u);
-  LOAD4(hi, upper_hi, 0u);
-  return max2(largest_abs(as_vec3(lo)), largest_abs(as_vec3(hi)));
+  LOAD1(entry.instance, keys, 2u * leaf + 1u);
+  LOAD4(lo, instance_lo, entry.instance);
+  LOAD4(hi, instance_hi, entry.instance);
+  entry.enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
+  entry.inside = entry.enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), tmax);
+  return entry;
 }
 
 void count_ray(Ray ray) {
   if (counting != 0u) {
     if (push.round == 0u && push.resume == 0u && !(ray.tmax < 0.0)) count(counter_rays, 1u);
-    count(counter_node_visits, visits);
-    count(counter_box_tests, visits);
+    count(counter_node_visits, 4u * visits);
+    count(counter_box_tests, 4u * visits);
   }
 }
 
@@ -94,59 +106,69 @@ void main() {
       step_count += more;
     }
   }
-  Slabs slabs = make_slabs(ray, max2(upper_extent(), largest_abs(ray.origin)) * push.rounding);
-  Walk walk;
-  walk.order = place.x;
-  walk.turns = place.y;
+  Slabs slabs = make_slabs(ray, max2(push.extent, largest_abs(ray.origin)) * push.rounding);
+  BoxRay box_ray = make_box_ray(slabs, push.grid);
+  BoxWalk walk;
+  walk.index = place.x;
+  walk.levels = place.y;
   walk.depth = place.z & 255u;
-  uvec4 lo;
-  uvec4 hi;
+  walk.trail = uvec4(0u);
+  if (walk.levels != 0u) LOAD4(walk.trail, trails, ray_index);
   if (push.round != 0u && (place.z & place_paused) == 0u) {
     uvec4 met;
     LOAD4(met, local_hits, index);
-    LOAD4(lo, upper_lo, walk_address(walk));
-    LOAD4(hi, upper_hi, walk_address(walk));
-    uint instance = lo.w & ~leaf_flag;
-    float t = max2(uintBitsToFloat(met.x), slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin));
-    if (met.w != no_index && (t < best.t || (t == best.t && instance < best_instance))) {
+    Entry entry = enter_leaf(walk.index, ray, slabs, best.t);
+    float t = max2(uintBitsToFloat(met.x), entry.enter);
+    if (met.w != no_index && (t < best.t || (t == best.t && entry.instance < best_instance))) {
       best.t = t;
       best.u = uintBitsToFloat(met.y);
       best.v = uintBitsToFloat(met.z);
       best.primitive = met.w;
-      best_instance = instance;
+      best_instance = entry.instance;
     }
-    walk = walk_on(walk);
+    walk = box_walk_on(walk);
   }
   if (any_hit != 0u && best.primitive != no_index) walk.depth = walk_done;
   if (ray.tmax < 0.0) walk.depth = walk_done;
 
-  bool found_leaf = false;
-  uint octant_shift = 2u * slabs.octant;
+  uint instance = no_index;
   uint budget = push.budget;
   bool walking = walk.depth != walk_done;
   while (walking) {
-    uint address = walk_address(walk);
-    LOAD4(lo, upper_lo, address);
-    LOAD4(hi, upper_hi, address);
-    visits += 1u;
-    float enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
-    bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
-    found_leaf = inside && walk.depth == push.depth;
-    if (!found_leaf) {
-      if (inside) {
-        walk = walk_down(walk, (lo.w >> octant_shift) & 3u);
+    while (walking && walk.depth != push.depth) {
+      uint record = 3u * (level_base(walk.depth) + walk.index);
+      uvec4 x;
+      uvec4 y;
+      uvec4 z;
+      LOAD4(x, boxes, record);
+      LOAD4(y, boxes, record + 1u);
+      LOAD4(z, boxes, record + 2u);
+      visits += 1u;
+      uint list = box_list(box_keys(x, y, z, box_ray, slabs.octant, ray.tmin, best.t));
+      if ((list >> 8u) != 0u) {
+        walk = box_walk_down(walk, list);
       } else {
-        walk = walk_on(walk);
+        walk = box_walk_on(walk);
       }
       budget -= 1u;
+      walking = walk.depth != walk_done && budget != 0u;
     }
-    walking = !found_leaf && walk.depth != walk_done && budget != 0u;
+    if (walking) {
+      Entry entry = enter_leaf(walk.index, ray, slabs, best.t);
+      if (entry.inside) {
+        instance = entry.instance;
+      } else {
+        walk = box_walk_on(walk);
+        budget -= 1u;
+      }
+      walking = instance == no_index && walk.depth != walk_done && budget != 0u;
+    }
   }
-  bool paused = !found_leaf && walk.depth != walk_done;
-  uint instance = lo.w & ~leaf_flag;
-  STORE1(found, ray_index, found_leaf ? instance : (paused ? enter_paused : no_index));
-  if (found_leaf || paused) {
-    STORE4(places, ray_index, uvec4(walk.order, walk.turns, walk.depth | (paused ? place_paused : 0u), place.w));
+  bool paused = instance == no_index && walk.depth != walk_done;
+  STORE1(found, ray_index, paused ? enter_paused : instance);
+  if (paused || instance != no_index) {
+    STORE4(places, ray_index, uvec4(walk.index, walk.levels, walk.depth | (paused ? place_paused : 0u), place.w));
+    STORE4(trails, ray_index, walk.trail);
     state.z = trace_unfinished;
     atomicAdd(block_counts[index / compact_block], 1u);
   } else {

@@ -115,7 +115,8 @@ void end_ray(uint index, Ray ray, Hit best, uvec4 state) {
     STORE1(steps, index, before + node_visits);
   }
   if (counting != 0u) {
-    if (push.resume == 0u && !(ray.tmax < 0.0)) count(counter_rays, 1u);
+    // Rays through instances are counted where they enter.
+    if (instanced == 0u && push.resume == 0u && !(ray.tmax < 0.0)) count(counter_rays, 1u);
     count(counter_node_visits, boxes_a_step * node_visits);
     count(counter_box_tests, boxes_a_step * node_visits);
     count(counter_triangle_tests, triangle_tests);

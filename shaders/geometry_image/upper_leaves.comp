@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lowest two levels of the tree over instances: each invocation takes four of them, in the order of their keys, and
-// their parent. The levels above are made by `bounds`.
+// The lowest records of boxes of the tree over instances: each invocation takes four of them in the order of their keys.
+// The levels above are made by `boxes`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
@@ -9,39 +9,31 @@
 WORDS(0, readonly, keys);
 QUADS(1, readonly, instance_lo);
 QUADS(2, readonly, instance_hi);
-QUADS(3, writeonly, upper_lo);
-QUADS(4, writeonly, upper_hi);
-COUNTERS(5)
-PUSH(UpperPush, push);
+QUADS(3, writeonly, boxes);
+COUNTERS(4)
+PUSH(BoxesPush, push);
 
-Bound bound_leaf(uint leaf) {
-  Bound bound = empty_bound();
-  uint instance = empty_slot;
-  if (leaf < push.instances) {
-    LOAD1(instance, keys, 2u * leaf + 1u);
+#include "geometry_image/boxes.glsl"
+
+Box leaf_box(uint leaf, vec3 per_step) {
+  Box box = empty_box();
+  if (leaf < push.count) {
+    uint instance;
     uvec4 lo;
     uvec4 hi;
+    LOAD1(instance, keys, 2u * leaf + 1u);
     LOAD4(lo, instance_lo, instance);
     LOAD4(hi, instance_hi, instance);
-    bound.lo = as_vec3(lo);
-    bound.hi = as_vec3(hi);
+    if (uintBitsToFloat(lo.x) <= uintBitsToFloat(hi.x)) box = bound_box(as_vec3(lo), as_vec3(hi), push.grid, per_step);
   }
-  uint address = level_base(push.depth) + leaf;
-  STORE4(upper_lo, address, as_bits(bound.lo, leaf_flag | instance));
-  STORE4(upper_hi, address, as_bits(bound.hi, 0u));
-  return bound;
+  return box;
 }
 
 void main() {
   uint index = invocation();
-  if (index >= push.parents) return;
-  Bound c0 = bound_leaf(4u * index);
-  Bound c1 = bound_leaf(4u * index + 1u);
-  Bound c2 = bound_leaf(4u * index + 2u);
-  Bound c3 = bound_leaf(4u * index + 3u);
-  Bound parent = join(join(c0, c1), join(c2, c3));
-  uint address = level_base(push.depth - 1u) + index;
-  STORE4(upper_lo, address, as_bits(parent.lo, child_order(c0, c1, c2, c3)));
-  STORE4(upper_hi, address, as_bits(parent.hi, 0u));
+  if (index >= push.written) return;
+  vec3 per_step = vec3(1.0 / push.grid.step.x, 1.0 / push.grid.step.y, 1.0 / push.grid.step.z);
+  store_record(push.depth - 1u, index, leaf_box(4u * index, per_step), leaf_box(4u * index + 1u, per_step),
+               leaf_box(4u * index + 2u, per_step), leaf_box(4u * index + 3u, per_step));
   flush_counters();
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Two levels: objects, each a geometry image with a hierarchy in a space of its own, and instances, which put
-// objects into the world (section 6 of the paper, "instancing"). The upper level is a 4-ary tree over the
-// instances' bounds in Morton order, made anew every frame; a ray that enters one of its leaves goes on
-// through the object's hierarchy in the object's space. Directions are not normalised there, so that t is the
+// objects into the world (section 6 of the paper, "instancing"). The upper level is a tree of 16-bit boxes
+// (layout/boxes.h) over the instances' bounds in Morton order, made anew every frame; a ray that enters the
+// bound of one goes on through the object's hierarchy in the object's space. Directions are not normalised there, so that t is the
 // same number in both.
 //
 // A hit in an instance is one that the ray has in the object's space, provided that it enters the instance's
@@ -116,11 +116,6 @@ struct SortPush {
   uint run;  // keys of a run that is sorted; 0: none is
 };
 
-struct UpperPush {
-  uint depth;  // of the leaves
-  uint instances;
-  uint parents;  // of leaves
-};
 
 // What enter_instances is about: rays, or those of the round before.
 struct EnterPush {
@@ -129,7 +124,10 @@ struct EnterPush {
   uint resume;     // round 0: only those that `mask` has sent on
   uint depth;      // of the upper level's leaves
   uint budget;     // steps of a ray in this dispatch
+  float extent;    // the largest absolute coordinate of all bounds
   float rounding;  // the largest of all instances
+  uint pad0;
+  BoxGrid grid;
 };
 CONST uint enter_paused = 0xfffffffeu;  // instead of an instance: the budget was spent before one was found
 CONST uint place_paused = 256u;         // the same, beside the depth of the ray's place

@@ -173,26 +173,28 @@ void add_atlas_options(CLI::App& app, SceneOptions& options) {
   app.add_flag("--all-shapes", options.atlas.charts.all_shapes,
                "With --atlas charts or auto: resample for what every morph target stretches, not for the "
                "rest pose alone");
-  add_value(app, "--instancing", "MODE",
-            "Keep a mesh that many nodes place once, with a hierarchy of its own, below one over its places: "
-            "auto (where that at least halves the triangles, default), on (also what a node's animation moves "
-            "as a whole), off",
-            [&](const std::string& text) {
-              parse_choice("--instancing", text, {"auto", "on", "off"});
-              options.instancing = text == "auto" ? scene::Instancing::automatic
-                                   : text == "on" ? scene::Instancing::on
-                                                  : scene::Instancing::off;
-            });
+  add_value(
+      app, "--instancing", "MODE",
+      "Keep a mesh that many nodes place once, with a hierarchy of its own, below one over its places: "
+      "auto (where that at least halves the triangles, default), on (also what a node's animation moves "
+      "as a whole), off",
+      [&](const std::string& text) {
+        parse_choice("--instancing", text, {"auto", "on", "off"});
+        options.instancing = text == "auto" ? scene::Instancing::automatic
+                             : text == "on" ? scene::Instancing::on
+                                            : scene::Instancing::off;
+      });
 }
 
 scene::Instancing instancing_of(const SceneOptions& options) {
   const geometry_image::ChartSettings& charts = options.atlas.charts;
-  const char* needs_one = charts.keep_maps                                   ? "the maps of charts, for relaxation,"
+  const char* needs_one = charts.keep_maps ? "the maps of charts, for relaxation,"
                           : charts.signal == geometry_image::Signal::screen ? "--signal screen"
                                                                             : nullptr;
   if (needs_one == nullptr) return options.instancing;
   if (options.instancing == scene::Instancing::on)
-    fail(ExitCode::usage, "--instancing", "{} needs all meshes where they are in the world; use off", needs_one);
+    fail(ExitCode::usage, "--instancing", "{} needs all meshes where they are in the world; use off",
+         needs_one);
   return scene::Instancing::off;
 }
 

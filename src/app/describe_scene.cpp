@@ -133,11 +133,11 @@ Json describe_atlas(const geometry_image::Atlas& atlas) {
           {"quads", report.quads},
           {"texels", report.texels},
           {"slots", report.slots},
-          {"objects", list(atlas.objects,
-                           [](const geometry_image::AtlasObject& object) {
-                             return Json{
-                                 {"texels", object.texels}, {"slots", object.slots}, {"depth", object.depth}};
-                           })},
+          {"objects",
+           list(atlas.objects,
+                [](const geometry_image::AtlasObject& object) {
+                  return Json{{"texels", object.texels}, {"slots", object.slots}, {"depth", object.depth}};
+                })},
           {"closed", report.closed()},
           {"boundary_edges", report.boundary_edges},
           {"non_manifold_edges", report.non_manifold_edges},

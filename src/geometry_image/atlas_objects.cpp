@@ -73,9 +73,9 @@ void append(const Atlas& part, uint32_t first_triangle, const std::string& subje
   AtlasReport& report = atlas.report;
   for (uint64_t AtlasReport::*count :
        {&AtlasReport::triangles, &AtlasReport::quads, &AtlasReport::texels, &AtlasReport::slots,
-        &AtlasReport::degenerate_triangles, &AtlasReport::duplicate_triangles, &AtlasReport::non_manifold_edges,
-        &AtlasReport::boundary_edges, &AtlasReport::welded_vertices, &AtlasReport::mapped_triangles,
-        &AtlasReport::mapped_charts, &AtlasReport::repeated_texels})
+        &AtlasReport::degenerate_triangles, &AtlasReport::duplicate_triangles,
+        &AtlasReport::non_manifold_edges, &AtlasReport::boundary_edges, &AtlasReport::welded_vertices,
+        &AtlasReport::mapped_triangles, &AtlasReport::mapped_charts, &AtlasReport::repeated_texels})
     report.*count += part.report.*count;
   report.notes.insert(report.notes.end(), part.report.notes.begin(), part.report.notes.end());
 }

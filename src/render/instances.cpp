@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "lodestone/geometry_image/slots.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/objects.h"
+#include "lodestone/render/box_levels.h"
 #include "lodestone/render/passes.h"
 
 namespace lodestone::render {
@@ -82,8 +82,7 @@ Instances::Instances(Backend& backend, const scene::Assembly& assembly, uint32_t
       hi_(backend, {"instance_hi", count_, 16}),
       keys_(backend, {"keys", 2 * uint64_t(count_), 4}),
       sorted_(backend, {"sorted", 2 * uint64_t(count_), 4}),
-      upper_lo_(backend, {"upper_lo", levels_.nodes(), 16}),
-      upper_hi_(backend, {"upper_hi", levels_.nodes(), 16}),
+      boxes_(backend, {"upper_boxes", 3 * box_records(levels_), 16}),
       entered_(backend, {"entered", 1, 4}) {}
 
 template <class Push>
@@ -105,11 +104,13 @@ void Instances::build(const std::vector<glm::mat4>& matrices, const std::vector<
     world.include(world_box(boxes[instance.object], matrices[i]));
   }
   backend_.upload(records_.id(), std::as_bytes(std::span(records)));
+  // Bounds are rounded outwards a little more than this box.
+  extent_ = std::max(layout::largest_abs(world.lo), layout::largest_abs(world.hi)) * (1 + 0x1p-13f);
+  world.lo -= extent_ * 0x1p-13f;
+  world.hi += extent_ * 0x1p-13f;
+  grid_ = make_grid(world);
   layout::PlacePush push{count_, world.lo, glm::vec3(0)};
-  for (glm::length_t axis = 0; axis < 3; ++axis) {
-    const float size = world.hi[axis] - world.lo[axis];
-    if (size > 0) push.per_step[axis] = std::min(1024 / size, std::numeric_limits<float>::max());
-  }
+  for (glm::length_t axis = 0; axis < 3; ++axis) push.per_step[axis] = 1 / (64 * grid_.step[axis]);
   run(passes::place_instances, {objects.id(), records_.id(), lo_.id(), hi_.id(), keys_.id()}, push, count_);
   sort();
   build_tree();
@@ -125,15 +126,16 @@ void Instances::sort() {
 }
 
 void Instances::build_tree() {
-  const uint32_t depth = levels_.depth(), parents = levels_.places(depth - 1);
-  run(passes::upper_leaves, {keys_.id(), lo_.id(), hi_.id(), upper_lo_.id(), upper_hi_.id()},
-      layout::UpperPush{depth, count_, parents}, parents);
+  const uint32_t depth = levels_.depth();
+  const auto written = [&](uint32_t level) { return level > 0 ? levels_.places(level - 1) : 0; };
+  run(passes::upper_leaves, {keys_.id(), lo_.id(), hi_.id(), boxes_.id()},
+      layout::BoxesPush{depth, count_, written(depth), 0, grid_, 0, 0, 0, 0}, written(depth));
   for (uint32_t level = depth - 1; level > 0;) {
     const bool two = level >= 2;
-    const layout::BoundsPush push{
-        level, levels_.places(level), levels_.places(level - 1), two ? levels_.places(level - 2) : 0, 0, 0, 0};
-    run(passes::upper_bounds, {upper_lo_.id(), upper_hi_.id()}, push,
-        two ? push.written_above : push.written);
+    const layout::BoxesPush push{level, levels_.places(level), written(level), two ? written(level - 1) : 0,
+                                 grid_, 0,                     0,              0,
+                                 0};
+    run(passes::upper_boxes, {boxes_.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }
 }
@@ -158,9 +160,10 @@ uint32_t Instances::enter(const RayBuffers& rays, uint32_t count, uint32_t round
   const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u};
   run(passes.enter,
       {rays.rays.id(), rays.hits.id(), rays.instances.id(), rays.states.id(), rays.places.id(),
-       rays.steps.id(), upper_lo_.id(), upper_hi_.id(), records_.id(), owners_.id(), local_.hits.id(),
-       local_.steps.id(), found_.id(), block_counts_.id()},
-      layout::EnterPush{count, round, query.restarted ? 1u : 0u, levels_.depth(), loop_budget_, rounding_},
+       rays.trails.id(), rays.steps.id(), boxes_.id(), keys_.id(), lo_.id(), hi_.id(), owners_.id(),
+       local_.hits.id(), local_.steps.id(), found_.id(), block_counts_.id()},
+      layout::EnterPush{count, round, query.restarted ? 1u : 0u, levels_.depth(), (loop_budget_ + 1) / 2,
+                        extent_, rounding_, 0, grid_},
       count, constants);
   run(passes.scan, {block_counts_.id(), block_starts_.id(), entered_.id()}, layout::CountPush{blocks}, 1);
   uint32_t entered = 0;

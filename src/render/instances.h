@@ -45,7 +45,9 @@ class Instances {
   uint32_t count_, loop_budget_;
   HierarchyLevels levels_;
   float rounding_ = 1;  // the largest of all instances
-  Buffer records_, lo_, hi_, keys_, sorted_, upper_lo_, upper_hi_;
+  float extent_ = 0;    // the largest absolute coordinate
+  layout::BoxGrid grid_{};
+  Buffer records_, lo_, hi_, keys_, sorted_, boxes_;
   // Of the rays on their way.
   uint32_t capacity_ = 0;
   RayBuffers local_;

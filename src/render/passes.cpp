@@ -56,7 +56,10 @@ constexpr Binding camera_bindings[] = {{"frame", structs, read}, {"rays", quad, 
     "pending", structs, read_write                                                                          \
   }
 
-#define OBJECT_BINDINGS {"objects", quad, read}, {"roots", word, read}
+#define OBJECT_BINDINGS      \
+  {"objects", quad, read}, { \
+    "roots", word, read      \
+  }
 
 constexpr Binding trace_threaded_bindings[] = {
     RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}, OBJECT_BINDINGS};
@@ -80,8 +83,11 @@ constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
                                             OBJECT_BINDINGS};
 
 // Its leaf map is read in pairs of slots.
-constexpr Binding trace_tile_bindings[] = {
-    RAY_BINDINGS, {"boxes", quad, read}, {"leaf_map", quad, read}, {"extents", structs, read}, OBJECT_BINDINGS};
+constexpr Binding trace_tile_bindings[] = {RAY_BINDINGS,
+                                           {"boxes", quad, read},
+                                           {"leaf_map", quad, read},
+                                           {"extents", structs, read},
+                                           OBJECT_BINDINGS};
 
 #undef OBJECT_BINDINGS
 #undef RAY_BINDINGS
@@ -94,29 +100,29 @@ constexpr Binding place_instances_bindings[] = {{"objects", quad, read},
 
 constexpr Binding sort_keys_bindings[] = {{"keys", word, read}, {"sorted", word, write}};
 
-constexpr Binding upper_leaves_bindings[] = {{"keys", word, read},
-                                             {"instance_lo", quad, read},
-                                             {"instance_hi", quad, read},
-                                             {"upper_lo", quad, write},
-                                             {"upper_hi", quad, write}};
+constexpr Binding upper_leaves_bindings[] = {
+    {"keys", word, read}, {"instance_lo", quad, read}, {"instance_hi", quad, read}, {"upper_boxes", quad, write}};
 
 constexpr Binding enter_instances_bindings[] = {
     {"rays", quad, read},         {"hits", quad, read_write},   {"hit_instances", word, read_write},
-    {"states", quad, read_write}, {"places", quad, read_write}, {"steps", word, read_write},
-    {"upper_lo", quad, read},     {"upper_hi", quad, read},     {"instances", quad, read},
-    {"owners", word, read},       {"local_hits", quad, read},   {"local_steps", word, read},
-    {"found", word, write},       {"block_counts", structs, read_write}};
+    {"states", quad, read_write}, {"places", quad, read_write}, {"trails", quad, read_write},
+    {"steps", word, read_write},  {"upper_boxes", quad, read},  {"keys", word, read},
+    {"instance_lo", quad, read},  {"instance_hi", quad, read},  {"owners", word, read},
+    {"local_hits", quad, read},   {"local_steps", word, read},  {"found", word, write},
+    {"block_counts", structs, read_write}};
 
 constexpr Binding scan_blocks_bindings[] = {
     {"block_counts", structs, read_write}, {"block_starts", word, write}, {"entered", structs, read_write}};
 
-constexpr Binding gather_rays_bindings[] = {
-    {"found", word, read}, {"block_starts", word, read}, {"owners", word, read}, {"next_owners", word, write}};
+constexpr Binding gather_rays_bindings[] = {{"found", word, read},
+                                            {"block_starts", word, read},
+                                            {"owners", word, read},
+                                            {"next_owners", word, write}};
 
 constexpr Binding local_rays_bindings[] = {
-    {"rays", quad, read},         {"hits", quad, read},          {"states", quad, read},
-    {"places", quad, read},       {"found", word, read},         {"instances", quad, read},
-    {"owners", word, read},       {"roots", word, write},        {"local_rays", quad, write},
+    {"rays", quad, read},          {"hits", quad, read},        {"states", quad, read},
+    {"places", quad, read},        {"found", word, read},       {"instances", quad, read},
+    {"owners", word, read},        {"roots", word, write},      {"local_rays", quad, write},
     {"local_states", quad, write}, {"local_steps", word, write}};
 
 constexpr Binding boxes_leaves_bindings[] = {{"leaf_map", word, read},
@@ -218,17 +224,21 @@ const PassDecl boxes_blocks{"bounds", "geometry_image/boxes_blocks", boxes_block
 const PassDecl boxes_leaves{"bounds", "geometry_image/boxes_leaves", boxes_leaves_bindings,
                             sizeof(BoxesPush)};
 const PassDecl boxes{"bounds", "geometry_image/boxes", boxes_bindings, sizeof(BoxesPush)};
-const PassDecl place_instances{"upper", "geometry_image/place_instances", place_instances_bindings, sizeof(PlacePush)};
+const PassDecl place_instances{"upper", "geometry_image/place_instances", place_instances_bindings,
+                               sizeof(PlacePush)};
 const PassDecl sort_keys{"upper", "geometry_image/sort_keys", sort_keys_bindings, sizeof(SortPush)};
-const PassDecl upper_leaves{"upper", "geometry_image/upper_leaves", upper_leaves_bindings, sizeof(UpperPush)};
-const PassDecl upper_bounds{"upper", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
-const PassDecl enter_instances{"trace", "geometry_image/enter_instances", enter_instances_bindings, sizeof(EnterPush)};
+const PassDecl upper_leaves{"upper", "geometry_image/upper_leaves", upper_leaves_bindings, sizeof(BoxesPush)};
+const PassDecl upper_boxes{"upper", "geometry_image/boxes", boxes_bindings, sizeof(BoxesPush)};
+const PassDecl enter_instances{"trace", "geometry_image/enter_instances", enter_instances_bindings,
+                               sizeof(EnterPush)};
 const PassDecl scan_blocks{"trace", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
 const PassDecl gather_rays{"trace", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
 const PassDecl local_rays{"trace", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
-const PassDecl occlude_enter{"occlude", "geometry_image/enter_instances", enter_instances_bindings, sizeof(EnterPush)};
+const PassDecl occlude_enter{"occlude", "geometry_image/enter_instances", enter_instances_bindings,
+                             sizeof(EnterPush)};
 const PassDecl occlude_scan{"occlude", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
-const PassDecl occlude_gather{"occlude", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
+const PassDecl occlude_gather{"occlude", "geometry_image/gather_rays", gather_rays_bindings,
+                              sizeof(GatherPush)};
 const PassDecl occlude_local{"occlude", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
 const PassDecl camera{"camera", "geometry_image/camera", camera_bindings, sizeof(RayPush)};
 const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_threaded_bindings,

@@ -9,7 +9,7 @@ namespace lodestone::render::passes {
 
 extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rasterise, bounds_leaves, bounds,
     wide_nodes, boxes_blocks, boxes_leaves, boxes;
-extern const PassDecl place_instances, sort_keys, upper_leaves, upper_bounds;
+extern const PassDecl place_instances, sort_keys, upper_leaves, upper_boxes;
 extern const PassDecl enter_instances, scan_blocks, gather_rays, local_rays;
 extern const PassDecl occlude_enter, occlude_scan, occlude_gather, occlude_local;
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, trace_tile,

@@ -60,10 +60,9 @@ struct Renderer::State {
 
   std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
     std::vector<BufferId> ids = {
-        rays.hits.id(),        geometry.id(),         normal_map.id(),        texel_map(),
-        tables.triangles.id(), positions.id(),        normals.id(),           tangents.id(),
-        tables.texcoords.id(), tables.images.id(),    tables.srgb_table.id(), tables.charts.id(),
-        tables.parts.id(),     tables.materials.id(), tables.textures.id(),   frame.id(),
+        rays.hits.id(), geometry.id(), normal_map.id(), texel_map(), tables.triangles.id(), positions.id(),
+        normals.id(), tangents.id(), tables.texcoords.id(), tables.images.id(), tables.srgb_table.id(),
+        tables.charts.id(), tables.parts.id(), tables.materials.id(), tables.textures.id(), frame.id(),
         // Without instances nothing reads them; any words and quads will do.
         instances ? rays.instances.id() : rays.steps.id(),
         instances ? instances->records().id() : geometry.id()};

@@ -7,6 +7,7 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/tile.h"
+#include "lodestone/render/box_levels.h"
 #include "lodestone/render/leaf_blocks.h"
 #include "lodestone/render/passes.h"
 #include "lodestone/render/scene_tables.h"
@@ -25,20 +26,6 @@ Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool seve
   }
   if (wanted == Traversal::automatic) wanted = tiles ? Traversal::tile : Traversal::wide;
   return wanted == Traversal::tile && several_objects ? Traversal::wide : wanted;
-}
-
-// A flat axis gets a thousandth of the largest one. Rounded outwards, all planes stay below 65535.
-glm::vec3 grid_step(const scene::Bounds& box) {
-  const glm::vec3 size = box.hi - box.lo;
-  const float largest = std::max(layout::max_component(size), 1e-30f);
-  return glm::max(size, glm::vec3(largest * 0x1p-10f)) * (1.0f / 65000);
-}
-
-// Blocks of slots write four records each, also those past the last slot.
-uint64_t box_records(const HierarchyLevels& levels) {
-  const uint32_t depth = levels.depth();
-  const uint64_t last_level = depth >= 2 ? 4 * uint64_t(levels.places(depth - 2)) : 1;
-  return layout::level_base(depth - 1) + last_level;
 }
 
 }  // namespace
@@ -74,11 +61,17 @@ void Tracing::place_trees(const geometry_image::Atlas& atlas) {
   LeafBlocks all;
   for (const geometry_image::AtlasObject& object : atlas.objects) {
     const HierarchyLevels levels(object.depth, object.slots);
-    Tree tree{levels, static_cast<uint32_t>(node_count_), object.first_slot,
-              static_cast<uint32_t>(wide_count_), 0, 0, 0, 0};
+    Tree tree{levels,
+              static_cast<uint32_t>(node_count_),
+              object.first_slot,
+              static_cast<uint32_t>(wide_count_),
+              0,
+              0,
+              0,
+              0};
     if (uses_boxes()) {
-      const LeafBlocks found = find_leaf_blocks(
-          std::span(atlas.leaf_map).subspan(object.first_slot, object.slots), levels);
+      const LeafBlocks found =
+          find_leaf_blocks(std::span(atlas.leaf_map).subspan(object.first_slot, object.slots), levels);
       tree.first_block = static_cast<uint32_t>(all.blocks.size());
       tree.blocks = static_cast<uint32_t>(found.blocks.size());
       tree.first_group = static_cast<uint32_t>(all.others.size());
@@ -105,8 +98,7 @@ void Tracing::build_links(const Tree& tree) {
   for (uint32_t level = 0; level <= levels.depth(); ++level) {
     // Only nodes above a slot in use: the siblings behind them are empty and never linked to.
     const uint32_t shift = 2 * (levels.depth() - level);
-    const auto used =
-        static_cast<uint32_t>((uint64_t(levels.slots()) + (uint64_t(1) << shift) - 1) >> shift);
+    const auto used = static_cast<uint32_t>((uint64_t(levels.slots()) + (uint64_t(1) << shift) - 1) >> shift);
     run(passes::links, {leaf_map_.id(), links_.id()},
         layout::LinksPush{level, levels.depth(), used, tree.first_node, tree.first_slot, levels.slots()},
         used);
@@ -125,7 +117,7 @@ void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& bo
     record.slots = tree.levels.slots();
     record.lo = boxes[i].lo;
     record.hi = boxes[i].hi;
-    record.step = grid_step(boxes[i]);
+    record.step = make_grid(boxes[i]).step;
   }
   backend_.upload(objects_.id(), std::as_bytes(std::span(records_)));
   if (uses_boxes()) backend_.upload(extents_.id(), std::as_bytes(std::span(zeros)), 4 * first);
@@ -169,16 +161,16 @@ void Tracing::build_boxes(const Buffer& geometry, size_t object) {
   const uint32_t depth = tree.levels.depth();
   const auto written = [&](uint32_t level) { return level > 0 ? tree.levels.places(level - 1) : 0; };
   const auto push_of = [&](uint32_t level, uint32_t count, uint32_t above, uint32_t first_item) {
-    return layout::BoxesPush{level,           count,           written(level), above, grid,
-                             tree.first_node, tree.first_slot, first_item,     static_cast<uint32_t>(object)};
+    return layout::BoxesPush{level,           count,      written(level),
+                             above,           grid,       tree.first_node,
+                             tree.first_slot, first_item, static_cast<uint32_t>(object)};
   };
   if (tree.blocks > 0) {
     run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id(), extents_.id()},
         push_of(depth, tree.blocks, 0, tree.first_block), tree.blocks);
   }
   if (tree.groups > 0 || depth == 1) {
-    run(passes::boxes_leaves,
-        {leaf_map_.id(), geometry.id(), boxes_.id(), extents_.id(), leaf_groups_.id()},
+    run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extents_.id(), leaf_groups_.id()},
         push_of(depth, tree.levels.slots(), tree.groups, tree.first_group),
         depth == 1 ? written(depth) : tree.groups);
   }
@@ -214,7 +206,8 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   if (uses_boxes()) {
     buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extents_.id(), rays.trails.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
-    push.budget = (loop_budget_ + 1) / 2;  // its loops have up to twice as many iterations a step as the others'
+    push.budget =
+        (loop_budget_ + 1) / 2;  // its loops have up to twice as many iterations a step as the others'
     run(query.shadow ? passes::occlude_boxes : passes::trace_boxes, buffers, push, count, constants);
     return;
   }

@@ -15,7 +15,8 @@ struct Entry {
   Scene (*make)();
 };
 
-constexpr std::array<Entry, 5> entries = {{{"head", builtin::make_head},
+constexpr std::array<Entry, 6> entries = {{{"head", builtin::make_head},
+                                           {"shoal", builtin::make_shoal},
                                            {"spheres", builtin::make_spheres},
                                            {"teapots", builtin::make_teapots},
                                            {"terrain", builtin::make_terrain},

@@ -8,6 +8,9 @@ namespace lodestone::scene::builtin {
 
 // A cartoon bust with 18 blendshapes, about 65,000 vertices; clip `Expressions`, camera `Portrait`.
 Scene make_head();
+// Ten thousand fish of three meshes that circle above the sea floor in clip `Circle`, cameras `ball` and
+// `among`; 7.4 million triangles, most of them instances.
+Scene make_shoal();
 // A floor and closed spheres of several materials, lights of every kind, one blendshape; 10,000 triangles.
 Scene make_spheres();
 // Three Utah teapots on an island with palms, cameras `teapots`, `island` and `handle`; 98,000 triangles,
