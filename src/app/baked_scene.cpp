@@ -92,8 +92,8 @@ geometry_image::Atlas BakedScene::take_atlas(const scene::Scene& scene, const sc
 
 geometry_image::BakeRecord record_of(const SceneOptions& options, const fs::path& output,
                                      const std::string& content_hash) {
-  geometry_image::BakeRecord record = {content_hash, options.scene, options.height_scale,
-                                       instancing_of(options), options.atlas};
+  geometry_image::BakeRecord record = {content_hash, options.scene, options.height_scale, options.atlas,
+                                       instancing_of(options)};
   if (is_builtin(options.scene)) return record;
   // The folder is resolved, so that two names for it are one; the file is not, for what it names itself is
   // looked for beside it.

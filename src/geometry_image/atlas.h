@@ -58,7 +58,7 @@ struct AtlasReport {
   // up to the mean density of texels. The mean, and what 95 % of the area keep below; of several objects the
   // mean over their areas, each in its own space, and the largest.
   double mean_stretch = 0, high_stretch = 0;
-  std::vector<std::string> notes;             // one sentence each
+  std::vector<std::string> notes;  // one sentence each
   bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
 };
 
@@ -88,8 +88,8 @@ using OnStage = std::function<void(const char*)>;
 // chart; `charts` resamples everything, and keeps as exact only what it cannot map; `automatic` takes grid
 // where meshes are made of them and resamples the rest (one atlas can hold charts of all kinds). Objects are
 // charted one by one, and errors told in parts of their own size; a texel budget is shared out by the area
-// that their largest instances have in the rest pose. Throws Error(bad_input) where no triangle is left, a grid is not what scene.h says, or more texels or leaves are
-// needed than there can be.
+// that their largest instances have in the rest pose. Throws Error(bad_input) where no triangle is left, a
+// grid is not what scene.h says, or more texels or leaves are needed than there can be.
 Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, const AtlasSettings& settings,
                   const OnStage& on_stage = {});
 
@@ -99,9 +99,9 @@ struct BakeRecord {
   // builtin:NAME, or the scene's file as a path relative to the folder of the baked file; empty: not recorded
   // (so in the cache).
   std::string scene{};
-  float height_scale = 0;  // scene::LoadOptions::height_scale
+  float height_scale = 0;                                 // scene::LoadOptions::height_scale
+  AtlasSettings asked{};                                  // what build_atlas was given, and the hash with it
   scene::Instancing instancing = scene::Instancing::off;  // that of the assembly
-  AtlasSettings asked{};   // what build_atlas was given, and the hash with it
 };
 
 // Baked files (.lode): header (magic, version, record, sizes), then the arrays zstd-compressed, then a

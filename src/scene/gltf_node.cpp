@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Nodes, the default scene (3.5) and skins (3.7.3).
+// Nodes, the default scene (3.5), skins (3.7.3) and EXT_mesh_gpu_instancing.
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
@@ -23,6 +25,7 @@ class NodeConverter {
     for (uint32_t from : order_) scene_.nodes.push_back(convert_node(from));
     for (size_t i = 0; i < model_.skins.size(); ++i) scene_.skins.push_back(convert_skin(i));
     for (size_t i = 0; i < order_.size(); ++i) match_skin(scene_.nodes[i], label(order_[i]));
+    for (size_t i = 0; i < order_.size(); ++i) add_instances(uint32_t(i), order_[i]);
     return std::move(node_of_);
   }
 
@@ -139,6 +142,58 @@ class NodeConverter {
     if (!(length > 0))
       fail_input(reader_.file(), "{}: a rotation of length 0; export it again", label(index));
     to.rotation = glm::quat(q / length);
+  }
+
+  // EXT_mesh_gpu_instancing: the node places its mesh by a transform for each instance, all below its own;
+  // here each is a child.
+  void add_instances(uint32_t node, uint32_t index) {
+    const auto extension = model_.nodes[index].extensions.find("EXT_mesh_gpu_instancing");
+    if (extension == model_.nodes[index].extensions.end() || scene_.nodes[node].mesh == none) return;
+    const std::string use = label(index) + ", instances";
+    const tinygltf::Value* attributes = gltf_member(extension->second, "attributes");
+    const auto accessor_of = [&](const char* name) {
+      const tinygltf::Value* accessor = attributes == nullptr ? nullptr : gltf_member(*attributes, name);
+      return accessor != nullptr && accessor->IsInt() ? accessor->Get<int>() : -1;
+    };
+    const int translation = accessor_of("TRANSLATION"), rotation = accessor_of("ROTATION"),
+              scale = accessor_of("SCALE");
+    std::optional<size_t> count;
+    for (const int accessor : {translation, rotation, scale}) {
+      if (accessor < 0) continue;
+      const size_t elements = reader_.count(accessor, use);
+      if (count && *count != elements)
+        fail_input(reader_.file(), "{}: {} and {} elements of one instance each; export it again", use,
+                   *count, elements);
+      count = elements;
+    }
+    if (!count)
+      fail_input(reader_.file(), "{}: have no TRANSLATION, ROTATION or SCALE; export it again", use);
+    if (scene_.nodes[node].skin != none)
+      fail_input(reader_.file(), "{}: of a mesh with a skin; export it without instances", use);
+    reader_.charge(*count, sizeof(Node), use);
+    Node instance;
+    instance.parent = node;
+    instance.mesh = std::exchange(scene_.nodes[node].mesh, none);
+    instance.weights = std::exchange(scene_.nodes[node].weights, {});
+    const auto first = scene_.nodes.size();
+    scene_.nodes.resize(first + *count, instance);
+    if (translation >= 0) {
+      const std::vector<glm::vec3> values = reader_.vec3s(translation, use + ", TRANSLATION");
+      for (size_t i = 0; i < *count; ++i) scene_.nodes[first + i].translation = values[i];
+    }
+    if (scale >= 0) {
+      const std::vector<glm::vec3> values = reader_.vec3s(scale, use + ", SCALE");
+      for (size_t i = 0; i < *count; ++i) scene_.nodes[first + i].scale = values[i];
+    }
+    if (rotation < 0) return;
+    const std::vector<glm::vec4> values = reader_.vec4s(rotation, use + ", ROTATION");
+    for (size_t i = 0; i < *count; ++i) {
+      const glm::vec4& r = values[i];
+      const float length = glm::length(r);
+      if (!(length > 0))
+        fail_input(reader_.file(), "{}: instance {} has a rotation of length 0; export it again", use, i);
+      scene_.nodes[first + i].rotation = glm::normalize(glm::quat(r.w, r.x, r.y, r.z));
+    }
   }
 
   uint32_t light_of(uint32_t index) const {

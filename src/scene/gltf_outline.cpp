@@ -274,7 +274,9 @@ class OutlineReader : public nlohmann::json_sax<nlohmann::json> {
     const bool of_texture = frames_.size() > 2 && holder.name.ends_with("Texture") &&
                             frames_[frames_.size() - 2].name.starts_with(material_extensions) &&
                             (key_ == "index" || key_ == "texCoord");
-    if ((index || of_texture) && !v.is_index()) fail_type("an index");
+    const bool of_instances = holder.name == "attributes" && frames_.size() > 2 &&
+                              frames_[frames_.size() - 2].name == "EXT_mesh_gpu_instancing";
+    if ((index || of_texture || of_instances) && !v.is_index()) fail_type("an index");
     if (names_material_extension(holder)) fail_type("an object");
     const bool null = v.kind == Scalar::Kind::other;
     if (null && holder.name.starts_with(material_extensions)) fail_type("a value, not null");

@@ -6,6 +6,7 @@
 #include "lodestone/cpu_fallback/cpu_backend.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/environments.h"
+#include "lodestone/test_support/instanced_scenes.h"
 #include "lodestone/test_support/mapped_charts.h"
 #include "lodestone/test_support/ready_scene.h"
 #include "lodestone/test_support/small_scenes.h"
@@ -157,6 +158,19 @@ TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
       expect_equal(ready, GetParam(), settings);
     }
   }
+}
+
+TEST_P(Devices, GiveTheBitsOfTheCpuThroughInstances) {
+  const ReadyScene ready(grove(), {}, scene::Instancing::on);
+  for (const auto traversal : all_traversals) {
+    render::Settings settings = small_settings();
+    settings.traversal = traversal;
+    expect_equal(ready, GetParam(), settings);
+  }
+  render::Settings settings = small_settings();
+  settings.integrator = render::Integrator::path;
+  settings.loop_budget = 3;  // rays rest on their way through both levels
+  expect_equal(ready, GetParam(), settings);
 }
 
 // A coated, a transparent and a plain square, each beside the others in the picture; all textures used.

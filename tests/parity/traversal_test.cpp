@@ -9,6 +9,7 @@
 #include "lodestone/layout/tile.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/grid_sphere.h"
+#include "lodestone/test_support/instanced_scenes.h"
 #include "lodestone/test_support/rays.h"
 #include "lodestone/test_support/ready_scene.h"
 
@@ -61,6 +62,13 @@ TEST(Traversals, AgreeOnRandomRays) {
                    random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 2));
   expect_all_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts),
                    random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 3));
+}
+
+TEST(Traversals, AgreeThroughInstances) {
+  expect_all_equal(ReadyScene(grove(), {}, scene::Instancing::on),
+                   random_rays({-2.5f, -1.5f, -2}, {2.5f, 2.5f, 2}, 20000, 4));
+  expect_all_equal(ReadyScene(swarm(500, 3), {}, scene::Instancing::on),
+                   random_rays({-3, -3, -3}, {3, 3, 3}, 20000, 5));
 }
 
 TEST(Traversals, AgreeOnPrimaryRaysWhichTravelAsPackets) {

@@ -10,15 +10,17 @@
 
 namespace lodestone::test {
 
-ReadyScene::ReadyScene(scene::Scene made, const geometry_image::AtlasSettings& settings)
+ReadyScene::ReadyScene(scene::Scene made, const geometry_image::AtlasSettings& settings,
+                       scene::Instancing instancing)
     : scene(std::move(made)),
-      assembly(scene::assemble(scene)),
+      assembly(scene::assemble(scene, instancing)),
       atlas(build_atlas(scene, assembly, settings)) {
   animation = scene.animations.empty() ? scene::none : 0;
 }
 
-ReadyScene::ReadyScene(const std::string& spec, const geometry_image::AtlasSettings& settings)
-    : ReadyScene(scene::load(spec), settings) {}
+ReadyScene::ReadyScene(const std::string& spec, const geometry_image::AtlasSettings& settings,
+                       scene::Instancing instancing)
+    : ReadyScene(scene::load(spec), settings, instancing) {}
 
 std::vector<glm::vec3> ReadyScene::texels(const scene::Pose& pose) const {
   const auto points = scene::blended_positions(assembly, scene::frame_weights(scene, assembly, pose),

@@ -18,9 +18,11 @@ struct ReadyScene {
   geometry_image::Atlas atlas;
   uint32_t animation = scene::none;
 
-  ReadyScene(scene::Scene made, const geometry_image::AtlasSettings& settings = {});
+  ReadyScene(scene::Scene made, const geometry_image::AtlasSettings& settings = {},
+             scene::Instancing instancing = scene::Instancing::off);
   // A file or builtin:NAME.
-  explicit ReadyScene(const std::string& spec, const geometry_image::AtlasSettings& settings = {});
+  explicit ReadyScene(const std::string& spec, const geometry_image::AtlasSettings& settings = {},
+                      scene::Instancing instancing = scene::Instancing::off);
 
   scene::Pose pose(float time) const { return scene::evaluate(scene, animation, time); }
   // The points of all texels at a pose, in the arithmetic of `blend` and `rasterise`.

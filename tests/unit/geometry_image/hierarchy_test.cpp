@@ -70,7 +70,8 @@ void expect_charts_to_be_subtrees(const Atlas& atlas) {
   }
   EXPECT_EQ(covered, atlas.leaf_map.size());
   EXPECT_GE(uint64_t(1) << (2 * atlas.objects[0].depth), atlas.leaf_map.size());
-  EXPECT_TRUE(atlas.objects[0].depth == 1 || uint64_t(1) << (2 * atlas.objects[0].depth - 2) < atlas.leaf_map.size());
+  EXPECT_TRUE(atlas.objects[0].depth == 1 ||
+              uint64_t(1) << (2 * atlas.objects[0].depth - 2) < atlas.leaf_map.size());
 }
 
 TEST(Hierarchy, HoldsEveryQuadOnceAndEveryChartInASubtree) {

@@ -50,6 +50,59 @@ TEST(GltfNode, ReferencesFollowTheNewOrder) {
   EXPECT_EQ(scene.nodes.at(scene.animations.at(0).channels.at(0).node).name, "joint");
 }
 
+json instancing(GltfBuilder& gltf, const json& attributes) {
+  gltf.triangle_mesh();
+  const json extension = {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}};
+  gltf.append("nodes", {{"mesh", 0}, {"translation", {10, 0, 0}}, {"extensions", extension}});
+  gltf.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  gltf.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  return gltf.root;
+}
+
+TEST(GltfNode, InstancesBecomeChildrenWithTheMesh) {
+  GltfBuilder gltf;
+  const int at = gltf.floats({1, 2, 3, 4, 5, 6}, "VEC3"),
+            turn = gltf.floats({0, 0, 1, 1, 0, 0, 0, 2}, "VEC4");
+  instancing(gltf, {{"TRANSLATION", at}, {"ROTATION", turn}});
+  gltf.root["nodes"].erase(0);  // the builder's own
+  gltf.root["scenes"] = json::array({{{"nodes", {0}}}});
+  const Scene scene = gltf.load();
+  ASSERT_EQ(scene.nodes.size(), 3u);
+  EXPECT_EQ(scene.nodes[0].mesh, none);
+  for (uint32_t i = 1; i < 3; ++i) {
+    EXPECT_EQ(scene.nodes[i].parent, 0u);
+    EXPECT_EQ(scene.nodes[i].mesh, 0u);
+    EXPECT_EQ(scene.nodes[i].scale, glm::vec3(1));
+  }
+  EXPECT_EQ(scene.nodes[2].translation, glm::vec3(4, 5, 6));
+  EXPECT_NEAR(scene.nodes[1].rotation.z, 0.70710678f, 1e-6f);
+  EXPECT_EQ(scene.nodes[2].rotation, glm::quat(1, 0, 0, 0));
+  EXPECT_EQ(evaluate(scene, none, 0).node_world[2][3], glm::vec4(14, 5, 6, 1));
+}
+
+TEST(GltfNode, InstancesThatCannotBeAreRefused) {
+  const auto refused = [](const auto& attributes_of, const std::string& because) {
+    GltfBuilder gltf;
+    instancing(gltf, attributes_of(gltf));
+    const std::string message = expect_bad_input(gltf.folder().write("s.glb", gltf.glb()));
+    EXPECT_NE(message.find(because), std::string::npos) << message;
+  };
+  refused([](GltfBuilder&) { return json::object(); }, "TRANSLATION, ROTATION or SCALE");
+  refused(
+      [](GltfBuilder& gltf) {
+        const int two = gltf.floats({1, 2, 3, 4, 5, 6}, "VEC3"), one = gltf.floats({1, 1, 1}, "VEC3");
+        return json{{"TRANSLATION", two}, {"SCALE", one}};
+      },
+      "2 and 1 elements");
+  refused(
+      [](GltfBuilder& gltf) {
+        return json{{"ROTATION", gltf.floats({0, 0, 0, 0}, "VEC4")}};
+      },
+      "length 0");
+  refused([](GltfBuilder&) { return json{{"SCALE", 99}}; }, "99");
+  refused([](GltfBuilder&) { return json{{"SCALE", "2"}}; }, "an index");
+}
+
 TEST(GltfNode, OnlyTheDefaultSceneIsDrawn) {
   GltfBuilder gltf;
   gltf.triangle_mesh();
