@@ -58,6 +58,12 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/accumulate", accumulate},
       {"geometry_image/aov", aov},
       {"geometry_image/resolve", resolve},
+      {"geometry_image/features", features},
+      {"denoise/moments", denoise_moments},
+      {"denoise/begin", denoise_begin},
+      {"denoise/variance", denoise_variance},
+      {"denoise/filter", denoise_filter},
+      {"denoise/end", denoise_end},
   };
   const auto found = passes.find(kernel);
   if (found == passes.end()) fail(ExitCode::device, "cpu", "has no pass {}", kernel);

@@ -36,5 +36,11 @@ void path(const CpuDispatch& dispatch);
 void accumulate(const CpuDispatch& dispatch);
 void aov(const CpuDispatch& dispatch);
 void resolve(const CpuDispatch& dispatch);
+void features(const CpuDispatch& dispatch);
+void denoise_moments(const CpuDispatch& dispatch);
+void denoise_begin(const CpuDispatch& dispatch);
+void denoise_variance(const CpuDispatch& dispatch);
+void denoise_filter(const CpuDispatch& dispatch);
+void denoise_end(const CpuDispatch& dispatch);
 
 }  // namespace lodestone::cpu_fallback

@@ -161,6 +161,10 @@ FN vec1 atan2_turns(vec1 y, vec1 x) {
   return select(y < 0.0f, negated, angle);
 }
 
+FN vec1 luminance(vec3 color) {
+  return color.x * 0.2126f + color.y * 0.7152f + color.z * 0.0722f;
+}
+
 FN vec1 linear_to_srgb(vec1 x) {
   return select(x <= 0.0031308f, 12.92f * max2(x, 0.0f), 1.055f * pow_(x, 0.41666667f) - 0.055f);
 }

@@ -34,10 +34,6 @@ struct Bsdf {
   vec1 chance_transmitted;
 };
 
-FN vec1 luminance(vec3 color) {
-  return color.x * 0.2126f + color.y * 0.7152f + color.z * 0.0722f;
-}
-
 // Schlick's approximation by the cosine on the side where the angle is larger, so that it holds from both
 // sides; 1 beyond the critical angle.
 FN vec3 interface_fresnel(IN(Bsdf) b, vec1 cosine) {

@@ -323,6 +323,11 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
             "same hits",
             [&](const std::string& text) { options.traversal = parse_traversal("--traversal", text); });
   add_integrator_options(app, options);
+  app.add_flag(
+      "--denoise", options.denoise,
+      "Filter the noise out of the finished picture, guided by what surfaces are where and by how much "
+      "samples differ (default: off). What the samples did not resolve (small shadows, reflections, "
+      "refractions) is blurred: it looks cleaner than it is right. Wants --spp 2 or more");
 }
 
 render::Settings picture_settings(const PictureOptions& options) {
@@ -337,6 +342,7 @@ render::Settings picture_settings(const PictureOptions& options) {
   settings.ao_distance = options.ao_distance;
   settings.lens_radius = options.lens_radius;
   settings.focus_distance = options.focus_distance;
+  settings.denoise = options.denoise;
   return settings;
 }
 

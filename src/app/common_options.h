@@ -85,6 +85,7 @@ struct PictureOptions {
   render::Integrator integrator = render::Integrator::eye;
   uint32_t max_bounces = 8;
   float ao_distance = 1e30f;
+  bool denoise = false;
   float lens_radius = 0, focus_distance = 0;  // 0: see render::Settings
 };
 // --relaxation-sweeps; where there are some, the atlas is to have the maps that they need.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lodestone/app/version.h"
+#include "lodestone/render/denoiser.h"
 
 namespace lodestone::app {
 namespace {
@@ -50,7 +51,8 @@ report::RunRecord describe_run(const std::string& command, const std::string& sc
   run.scene.vertices = prepared.assembly.positions.size();
   for (const scene::Mesh& mesh : prepared.scene.meshes) run.scene.morph_targets += mesh.targets.size();
   for (const scene::Skin& skin : prepared.scene.skins) run.scene.joints += skin.joints.size();
-  run.image = {picture.size.width, picture.size.height, picture.spp};
+  run.image = {picture.size.width, picture.size.height, picture.spp,
+               picture.denoise ? render::denoise_description() : ""};
   run.precompute = prepared.stages;
   return run;
 }

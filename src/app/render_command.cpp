@@ -23,6 +23,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
 #include "lodestone/base/log.h"
+#include "lodestone/render/denoiser.h"
 #include "lodestone/report/chrome_trace.h"
 #include "lodestone/report/pass_table.h"
 #include "lodestone/report/progress.h"
@@ -39,6 +40,7 @@ struct RenderOptions {
   PictureOptions picture;
   DeviceOptions device;
   std::vector<std::string> aovs;
+  bool noisy = false;  // is asked for like them
   float exposure = 0;
   render::ViewTransform view = render::ViewTransform::filmic;
   std::string output, contact_sheet, statistics, profile;
@@ -70,8 +72,10 @@ OutputPattern check(const RenderOptions& options) {
   if (options.frames.range().count() > 1 && !output.numbered())
     fail(ExitCode::usage, "-o", "`{}` names one file for {} frames; put #### where the frame number goes",
          options.output, options.frames.range().count());
-  if (output.is_png() && !options.aovs.empty())
+  if (output.is_png() && (!options.aovs.empty() || options.noisy))
     fail(ExitCode::usage, "--aov", "a PNG holds the picture alone; write an .exr with -o");
+  if (options.noisy && !options.picture.denoise)
+    fail(ExitCode::usage, "--aov", "`noisy` is the picture before --denoise, which is not given");
   const std::vector<NamedFile> reports = reports_of(options);
   check_keeps(options, output, options.scene.scene);
   for (const NamedFile& report : reports) {
@@ -92,6 +96,7 @@ render::Settings settings_of(const RenderOptions& options) {
   settings.view = options.view;
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
+  settings.noisy = options.noisy;
   return settings;
 }
 
@@ -150,6 +155,7 @@ RenderRun::RenderRun(const RenderOptions& options)
                     settings_of(options));
   measured_.setup = to_dispatches(renderer_->setup_passes(), device_.origin_ms);
   measured_.precompute.push_back({"links", start, now_ms() - start});
+  if (options_.picture.denoise) log::note("denoise: " + render::denoise_description());
   log::note(fmt::format("{}: {} traversal", device_.backend->info().name, to_string(renderer_->traversal())));
 }
 
@@ -183,6 +189,7 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"wall_ms", fmt::format("{}", frame.wall_ms)},  // the only ones that differ between two runs
       {"pass_ms", times.dump()},
   };
+  if (options_.picture.denoise) text["denoise"] = render::denoise_description();
   if (const std::optional<scene::Environment>& environment = prepared_.scene.environment) {
     text["environment"] = environment->file;
     text["environment_strength"] = fmt::format("{}", environment->strength);
@@ -266,10 +273,15 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
       ->required();
   add_path(app, "--contact-sheet", "FILE.png",
            "Also write up to 24 frames of the sequence, as displayed, on one sheet", options.contact_sheet);
-  add_value(app, "--aov", "LIST", fmt::format("More channels of an .exr: {}", join_names(aov_names())),
+  add_value(app, "--aov", "LIST",
+            fmt::format("More channels of an .exr: {}, and with --denoise noisy, the picture before it",
+                        join_names(aov_names())),
             [&](const std::string& text) {
+              std::vector<std::string> names = aov_names();
+              names.push_back("noisy");
               options.aovs = parse_list("--aov", text);
-              for (const std::string& name : options.aovs) parse_choice("--aov", name, aov_names());
+              for (const std::string& name : options.aovs) parse_choice("--aov", name, names);
+              options.noisy = std::erase(options.aovs, "noisy") > 0;
             });
   add_value(
       app, "--exposure", "EV", "Stops brighter or darker, of a .png and a contact sheet (default: 0)",

@@ -53,6 +53,14 @@ image::Image make_color_image(const Settings& settings, const std::vector<glm::v
   return image;
 }
 
+void add_noisy(const std::vector<glm::vec4>& pixels, image::Image& image) {
+  const char* names[] = {"noisy.R", "noisy.G", "noisy.B"};
+  for (int c = 0; c < 3; ++c) {
+    image::Channel& channel = image.add(names[c]);
+    for (size_t i = 0; i < pixels.size(); ++i) channel.values[i] = pixels[i][c];
+  }
+}
+
 void add_aovs(const Settings& settings, const std::vector<glm::uvec4>& quads, image::Image& image) {
   const auto* words = reinterpret_cast<const uint32_t*>(quads.data());
   const size_t pixels = size_t(settings.width) * settings.height;

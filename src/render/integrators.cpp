@@ -43,7 +43,7 @@ bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrup
   run(passes::ambient,
       surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
       layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
-      rays.rays, {tables.sources, 0, 0, 0, instances ? 1u : 0u});
+      rays.rays, plain_constants());
   return add_unblocked(rays.rays, interrupted);
 }
 

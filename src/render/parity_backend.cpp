@@ -29,6 +29,7 @@ struct ParityBackend::State {
     return data;
   }
 
+  // Flips the bit on the device; again, and it is as before.
   void break_device(const Dispatch& dispatch) {
     for (size_t i = 0; i < dispatch.buffers.size(); ++i) {
       if (dispatch.pass->bindings[i].access == Access::read || bytes(dispatch.buffers[i]) == 0) continue;
@@ -39,7 +40,6 @@ struct ParityBackend::State {
       device->download(id, place, 4 * word);
       value ^= 1u << (fault->bit % 32);
       device->upload(id, place, 4 * word);
-      fault_done = true;
       return;
     }
   }
@@ -129,9 +129,15 @@ void ParityBackend::run(const Dispatch& dispatch) {
   on_reference.buffers = reference_ids;
   s.device->run(on_device);
   s.reference->run(on_reference);
-  if (s.fault && !s.fault_done && s.fault->pass == dispatch.pass->name) s.break_device(dispatch);
+  const bool faulty = s.fault && !s.fault_done && s.fault->pass == dispatch.pass->name;
+  if (faulty) s.break_device(dispatch);
   for (size_t i = 0; i < dispatch.buffers.size(); ++i) {
     if (dispatch.pass->bindings[i].access != Access::read) s.compare(dispatch, i);
+  }
+  // What follows must not run on with it: it may be an index.
+  if (faulty) {
+    s.break_device(dispatch);
+    s.fault_done = true;
   }
 }
 

@@ -2,6 +2,7 @@
 #include "lodestone/render/passes.h"
 
 #include "lodestone/layout/boxes.h"
+#include "lodestone/layout/denoise.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/objects.h"
@@ -195,6 +196,9 @@ constexpr Binding path_bindings[] = {SURFACE_BINDINGS,
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
 
+constexpr Binding features_bindings[] = {
+    SURFACE_BINDINGS, {"rays", quad, read}, {"features", quad, read_write}};
+
 #undef ENVIRONMENT_BINDINGS
 #undef SURFACE_BINDINGS
 
@@ -203,6 +207,19 @@ constexpr Binding accumulate_bindings[] = {
 
 constexpr Binding resolve_bindings[] = {
     {"frame", structs, read}, {"radiance", quad, read}, {"beauty", quad, write}, {"display", quad, write}};
+
+constexpr Binding denoise_moments_bindings[] = {{"radiance", quad, read}, {"moments", quad, read_write}};
+
+constexpr Binding denoise_begin_bindings[] = {{"frame", structs, read}, {"radiance", quad, read},
+                                              {"features", quad, read}, {"moments", quad, read},
+                                              {"guides", quad, write},  {"light", quad, write}};
+
+constexpr Binding denoise_filter_bindings[] = {
+    {"guides", quad, read}, {"light", quad, read}, {"filtered", quad, write}};
+
+constexpr Binding denoise_end_bindings[] = {{"frame", structs, read}, {"guides", quad, read},
+                                            {"light", quad, read},    {"noisy", quad, read},
+                                            {"beauty", quad, write},  {"display", quad, write}};
 
 }  // namespace
 
@@ -262,5 +279,11 @@ const PassDecl path{"shade", "geometry_image/path", path_bindings, sizeof(PathPu
 const PassDecl accumulate{"accumulate", "geometry_image/accumulate", accumulate_bindings, sizeof(CountPush)};
 const PassDecl aov{"aov", "geometry_image/aov", aov_bindings, sizeof(RayPush)};
 const PassDecl resolve{"resolve", "geometry_image/resolve", resolve_bindings, sizeof(ResolvePush)};
+const PassDecl features{"denoise", "geometry_image/features", features_bindings, sizeof(FeaturesPush)};
+const PassDecl denoise_moments{"denoise", "denoise/moments", denoise_moments_bindings, sizeof(MomentsPush)};
+const PassDecl denoise_begin{"denoise", "denoise/begin", denoise_begin_bindings, sizeof(ResolvePush)};
+const PassDecl denoise_variance{"denoise", "denoise/variance", denoise_filter_bindings, sizeof(DenoisePush)};
+const PassDecl denoise_filter{"denoise", "denoise/filter", denoise_filter_bindings, sizeof(DenoisePush)};
+const PassDecl denoise_end{"denoise", "denoise/end", denoise_end_bindings, sizeof(CountPush)};
 
 }  // namespace lodestone::render::passes

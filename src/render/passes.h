@@ -15,5 +15,6 @@ extern const PassDecl occlude_enter, occlude_scan, occlude_gather, occlude_local
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, trace_tile,
     occlude_threaded, occlude_octant, occlude_wide, occlude_boxes;
 extern const PassDecl mask, shade, ambient, branch, path, accumulate, aov, resolve;
+extern const PassDecl features, denoise_moments, denoise_begin, denoise_variance, denoise_filter, denoise_end;
 
 }  // namespace lodestone::render::passes

@@ -89,6 +89,7 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   beauty = Buffer(device, {"beauty", pixels, 16});
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
+  if (settings.denoise) denoiser.emplace(device, settings, batch_rays);
   if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0) prepare_relaxation();
   setup = device.finish();
 }
@@ -250,10 +251,15 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
                                settings.max_bounces};
     run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
     if (!trace_masked(primary, count, {.common_origin = !has_lens()}, interrupted)) return false;
+    if (denoiser)
+      denoiser->add_features(surface_buffers(primary, {primary.rays.id()}), plain_constants(), count,
+                             sample == 0);
     if (!integrate(push, interrupted)) return false;
+    if (denoiser) denoiser->add_sample(radiance, count, sample == 0);
   }
   run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()},
       layout::ResolvePush{first_ray, count}, count);
+  if (denoiser) denoiser->end_batch(frame, radiance, first_ray, count);
   return true;
 }
 
@@ -276,10 +282,15 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
       return std::nullopt;
     }
   }
+  if (s.denoiser) s.denoiser->filter(s.frame, s.beauty, s.display);
   FrameResult result;
   std::vector<glm::vec4> pixels(size_t(s.settings.width) * s.settings.height);
-  download_all(s.backend, s.beauty, pixels);
+  download_all(s.backend, s.denoiser ? s.denoiser->beauty() : s.beauty, pixels);
   result.linear = make_color_image(s.settings, pixels, true);
+  if (s.denoiser && s.settings.noisy) {
+    download_all(s.backend, s.beauty, pixels);
+    add_noisy(pixels, result.linear);
+  }
   download_all(s.backend, s.display, pixels);
   result.display = make_color_image(s.settings, pixels, false);
   result.display.linear = false;

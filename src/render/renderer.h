@@ -45,6 +45,8 @@ struct Settings {
   ViewTransform view = ViewTransform::filmic;
   float exposure = 0;             // stops
   std::vector<std::string> aovs;  // of: depth normal albedo uv id lod steps
+  bool denoise = false;           // of at least 2 spp (render/denoiser.h)
+  bool noisy = false;             // with `denoise`: also noisy.R G B, the beauty before it
   uint32_t loop_budget = 4000;    // traversal steps of one dispatch; see trace.h
   // Of the texels of mapped charts, every frame, before the hierarchy is built: they go where the pose
   // stretches the surface. Other charts stay as they are.

@@ -8,6 +8,7 @@
 
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/recursion.h"
+#include "lodestone/render/denoiser.h"
 #include "lodestone/render/environment_tables.h"
 #include "lodestone/render/instances.h"
 #include "lodestone/render/relaxation.h"
@@ -33,6 +34,7 @@ struct Renderer::State {
   std::optional<Relaxation> relaxation;
   std::optional<Instances> instances;  // none: all of the scene is one object in the world
   bool rigid_done = false;             // rigid objects are as they will always be
+  std::optional<Denoiser> denoiser;
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
@@ -73,6 +75,11 @@ struct Renderer::State {
   // Of the passes that read them.
   std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none) const {
     return {tables.sources, tables.layered, environment.map, recursion, instances ? 1u : 0u};
+  }
+
+  // Of those that take every surface for a plain one.
+  std::array<uint32_t, pass_constants> plain_constants() const {
+    return {tables.sources, 0, 0, 0, instances ? 1u : 0u};
   }
 
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }

@@ -69,6 +69,7 @@ struct RunRecord {
   } scene;
   struct {
     uint32_t width = 0, height = 0, spp = 0;
+    std::string denoise;  // what was done to the pictures after their samples; empty: nothing
   } image;
   std::vector<Stage> precompute;
   std::vector<Dispatch> setup;  // passes that ran once, before the first frame

@@ -85,6 +85,7 @@ std::string statistics_json(const RunRecord& run) {
                    {"morph_targets", run.scene.morph_targets},
                    {"joints", run.scene.joints}};
   json["image"] = {{"width", run.image.width}, {"height", run.image.height}, {"spp", run.image.spp}};
+  if (!run.image.denoise.empty()) json["image"]["denoise"] = run.image.denoise;
   json["precompute"] = Json::array();
   for (const Stage& stage : run.precompute)
     json["precompute"].push_back({{"name", stage.name}, {"wall_ms", stage.wall_ms}});

@@ -9,8 +9,8 @@
 namespace lodestone::report {
 
 // One JSON object. What the device cannot give, or nobody counted, is null. A pass of a CPU run has, beside
-// its null `device_ms`, a `wall_ms` in its place. A megabyte is a million bytes; `peak_rss_mb` is of the
-// moment of the call.
+// its null `device_ms`, a `wall_ms` in its place. `image` says how pictures were denoised, where they were. A
+// megabyte is a million bytes; `peak_rss_mb` is of the moment of the call.
 std::string statistics_json(const RunRecord& run);
 
 // The most memory that this process has had resident, in megabytes of a million bytes.

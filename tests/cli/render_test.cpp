@@ -56,6 +56,22 @@ TEST_F(Render, GivesTheChannelsOfTheContract) {
   EXPECT_EQ(image.channels.size(), 17u);
 }
 
+TEST_F(Render, SaysThatAPictureWasDenoisedAndKeepsItAsItWas) {
+  const std::vector<std::string> path = {"--integrator", "path", "--spp", "4"};
+  std::vector<std::string> denoised = path;
+  denoised.insert(denoised.end(), {"--denoise", "--aov", "noisy", "--stats", place("s.json")});
+  const image::Image before = render("a.exr", path), after = render("b.exr", denoised);
+  EXPECT_TRUE(after.find("noisy.G")->values == before.find("G")->values);
+  EXPECT_TRUE(after.find("A")->values == before.find("A")->values);
+  EXPECT_FALSE(equal_beauty(before, after));
+  const std::string how = after.metadata.at("lodestone:denoise");
+  EXPECT_NE(how.find("a-trous"), std::string::npos);
+  EXPECT_NE(how.find("blurs"), std::string::npos);
+  EXPECT_EQ(before.metadata.count("lodestone:denoise"), 0u);
+  const auto statistics = nlohmann::json::parse(read_text(place("s.json")));
+  EXPECT_EQ(statistics["image"]["denoise"], how);
+}
+
 TEST_F(Render, SeesTheSceneAndWhatIsBesideIt) {
   const image::Image image = render("x.exr", every_aov);
   uint64_t hits = 0, misses = 0;

@@ -44,7 +44,7 @@ inline RunRecord gpu_run() {
   run.tracer = "geometry-image";
   run.device = {"gpu", "llvmpipe", "Mesa 22.3.6", "1.3.230"};
   run.scene = {"spot.obj", 5856, 2930, 2, 7};
-  run.image = {640, 360, 4};
+  run.image = {640, 360, 4, ""};
   run.precompute = {{"charts", 1, 12.5}};
   run.setup = {dispatch("links", 20, 1)};
   for (uint32_t i = 0; i < 2; ++i) {

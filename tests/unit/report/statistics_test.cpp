@@ -40,6 +40,12 @@ TEST(Statistics, HasTheFieldsOfTheContractInItsOrder) {
   EXPECT_EQ(keys(json["memory"]), (Keys{"device_mb", "peak_rss_mb"}));
 }
 
+TEST(Statistics, SaysHowPicturesWereDenoisedWhereTheyWere) {
+  RunRecord run = testing::gpu_run();
+  run.image.denoise = "by hand";
+  EXPECT_EQ(Json::parse(statistics_json(run))["image"]["denoise"], "by hand");
+}
+
 TEST(Statistics, CarriesWhatTheRunMeasured) {
   RunRecord run = testing::gpu_run();
   run.frames[0].dispatches = {testing::counted_dispatch("trace", 2000000),
