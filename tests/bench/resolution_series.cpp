@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Figure 11 of the paper: how the error of resampled meshes falls as their resolution rises, as a table and
 // as a plot. resolution_series [--scenes armadillo.obj,...] [--resolutions 32,64,...] [--csv FILE] [--svg
-// FILE]
+// FILE] [--parts FOLDER]
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "lodestone/base/file.h"
 #include "lodestone/scene/load.h"
 #include "lodestone/test_support/bench_main.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/log_plot.h"
+#include "lodestone/test_support/markdown_table.h"
 #include "lodestone/test_support/ready_scene.h"
 #include "lodestone/test_support/resolution_series.h"
 
@@ -22,13 +24,14 @@ struct Choice {
                                   "scallop.glb",   "ict_face_sparse.glb", "counter_assembly.stl"};
   std::vector<uint32_t> resolutions{32, 64, 128, 256, 512};
   SeriesPicture picture;
-  std::string device = "cpu", csv, svg;
+  std::string device = "cpu", csv, svg, parts;
 };
 
 struct Measure {
   const char* title;
   double SeriesPoint::*value;
 };
+constexpr size_t pixel_error = 2;
 constexpr Measure measures[] = {
     {"Hausdorff distance (% of the diagonal)", &SeriesPoint::hausdorff},
     {"Root mean square distance (% of the diagonal)", &SeriesPoint::root_mean_square},
@@ -51,6 +54,18 @@ Curve square_guide(const std::vector<Curve>& curves) {
   }
   const double ratio = hi.x / lo.x;
   return {"falls with the square", {{lo.x, hi.y}, {hi.x, hi.y / (ratio * ratio)}}, true};
+}
+
+// Figure 11 itself, a row a resolution.
+std::string pixel_error_table(const Choice& choice, const LogPanel& errors) {
+  TableRow head{"resolution"};
+  std::vector<TableRow> rows;
+  for (const uint32_t resolution : choice.resolutions) rows.push_back({std::to_string(resolution)});
+  for (const Curve& curve : errors.curves) {
+    head.push_back(curve.name);
+    for (size_t i = 0; i < rows.size(); ++i) rows[i].push_back(fmt::format("{:.3f}", curve.points[i].y));
+  }
+  return markdown_table(head, rows);
 }
 
 // After each scene: a long run shows what it has.
@@ -89,6 +104,10 @@ void series(const Choice& choice) {
     }
     save(choice, csv, panels);
   }
+  if (!choice.parts.empty()) {
+    write_file(std::filesystem::path(choice.parts) / "pixel-error.md",
+               pixel_error_table(choice, panels[pixel_error]));
+  }
 }
 
 }  // namespace
@@ -108,5 +127,6 @@ int main(int argc, char** argv) {
   app.add_option("--device", choice.device, "cpu, or a part of a device's name");
   app.add_option("--csv", choice.csv, "Write the table to this file");
   app.add_option("--svg", choice.svg, "Write the plot to this file");
+  app.add_option("--parts", choice.parts, "Write the pixel errors as a table of Markdown to this folder");
   return lodestone::test::bench_main(app, argc, argv, [&] { lodestone::test::series(choice); });
 }

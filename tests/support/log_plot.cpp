@@ -8,6 +8,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "lodestone/test_support/svg_text.h"
+
 namespace lodestone::test {
 namespace {
 
@@ -40,18 +42,6 @@ Range range_of(const std::vector<LogPanel>& panels, double base, Value value) {
   constexpr double slack = 1e-6;  // a power of the base is its own bound, however its logarithm is rounded
   lo = std::floor(lo + slack);
   return {lo, std::max(std::ceil(hi - slack), lo + 1)};
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text)
-    safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return safe;
-}
-
-std::string text(double x, double y, const char* anchor, const std::string& words, const char* more = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                     escaped(words));
 }
 
 std::string line(double x0, double y0, double x1, double y1, const char* colour) {
@@ -93,16 +83,16 @@ std::string panel_svg(const LogPanel& panel, double x0, double y0, const Range& 
   const auto y_of = [&](double exponent) {
     return y0 + top + height * (y_range.hi - exponent) / (y_range.hi - y_range.lo);
   };
-  std::string svg = text(x0 + left, y0 + top - 12, "start", panel.title, " font-weight=\"bold\"");
+  std::string svg = svg_text(x0 + left, y0 + top - 12, "start", panel.title, " font-weight=\"bold\"");
   for (double e = x_range.lo; e <= x_range.hi; ++e) {
     svg += line(x_of(e), y_of(y_range.lo), x_of(e), y_of(y_range.hi), "#ddd");
-    svg += text(x_of(e), y_of(y_range.lo) + 16, "middle", fmt::format("{:g}", std::exp2(e)));
+    svg += svg_text(x_of(e), y_of(y_range.lo) + 16, "middle", fmt::format("{:g}", std::exp2(e)));
   }
   for (double e = y_range.lo; e <= y_range.hi; ++e) {
     svg += line(x_of(x_range.lo), y_of(e), x_of(x_range.hi), y_of(e), "#bbb");
-    svg += text(x_of(x_range.lo) - 6, y_of(e) + 4, "end", fmt::format("{:g}", std::pow(10, e)));
+    svg += svg_text(x_of(x_range.lo) - 6, y_of(e) + 4, "end", fmt::format("{:g}", std::pow(10, e)));
   }
-  svg += text(x0 + left + width / 2, y0 + panel_height - 10, "middle", x_label);
+  svg += svg_text(x0 + left + width / 2, y0 + panel_height - 10, "middle", x_label);
   for (const Curve& curve : panel.curves) {
     const size_t style = styles.at(curve.name);
     std::string path, marks;
@@ -133,25 +123,20 @@ std::string log_plot(const std::vector<LogPanel>& panels, const std::string& x_l
       const double y = 18 + legend_row * static_cast<double>(style / items_a_row);
       legend += stroke(fmt::format("M{:.1f} {:.1f}h26", x, y - 4), curve.guide, style);
       if (!curve.guide) legend += mark(x + 13, y - 4, style);
-      legend += text(x + 32, y, "start", curve.name);
+      legend += svg_text(x + 32, y, "start", curve.name);
     }
   }
   const double legend_height =
       8 + legend_row * static_cast<double>((styles.size() + items_a_row - 1) / items_a_row);
   const size_t rows = (panels.size() + columns - 1) / columns;
   const double height = legend_height + panel_height * static_cast<double>(rows);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
-      "height=\"{1:g}\" "
-      "font-family=\"sans-serif\" font-size=\"12\">\n<path d=\"M0 0h{0:g}v{1:g}h-{0:g}z\" fill=\"#fff\"/>\n",
-      width, height);
-  svg += legend;
+  std::string svg = legend;
   for (size_t i = 0; i < panels.size(); ++i) {
     svg +=
         panel_svg(panels[i], panel_width * static_cast<double>(i % columns),
                   legend_height + panel_height * static_cast<double>(i / columns), x_range, x_label, styles);
   }
-  return svg + "</svg>\n";
+  return svg_document(width, height, svg);
 }
 
 }  // namespace lodestone::test
