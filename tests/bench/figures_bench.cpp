@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--resolutions", choice.resolutions, "Of the head, even")
       ->delimiter(',')
-      ->check(CLI::Range(2, 4096));
+      ->check(CLI::Range(4, 4096));
   app.add_option("--spp", choice.spp, "Samples a pixel of figure 8")->check(CLI::Range(1, 65536));
   app.add_option("--glossy-spp", choice.glossy_spp, "Samples a pixel of figure 9")
       ->check(CLI::Range(1, 65536));

@@ -297,7 +297,7 @@ int main(int argc, char** argv) {
   CLI::App app("Table 1 of the paper: five kinds of rays at each resolution", "ray_kinds_bench");
   app.add_option("--resolutions", choice.resolutions, "Geometry images of N x N quads")
       ->delimiter(',')
-      ->check(CLI::Range(2, 2048));
+      ->check(CLI::Range(4, 2048));
   app.add_option("--size", choice.size, "Pictures have N x N pixels, N a multiple of 8")
       ->check(CLI::Range(8, 4096));
   app.add_option("--rounds", choice.rounds, "Turns of each")->check(CLI::Range(1, 10000));

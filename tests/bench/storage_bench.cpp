@@ -153,7 +153,7 @@ int main(int argc, char** argv) {
   CLI::App app("Table 2 of the paper: bits a node, a ray's state, a triangle", "storage_bench");
   app.add_option("--scene", choice.scene, "A file, also of the shared data folder, or builtin:NAME");
   app.add_option("--resolution", choice.resolution, "Geometry images of about N x N texels, N even")
-      ->check(CLI::Range(2, 4096));
+      ->check(CLI::Range(4, 4096));
   app.add_option("--devices", choice.devices, "cpu, or a part of a device's name")->delimiter(',');
   app.add_option("--parts", choice.parts, "Write tables of Markdown to this folder");
   return bench_main(app, argc, argv, [&] { bench(choice); });

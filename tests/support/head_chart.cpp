@@ -70,8 +70,8 @@ scene::Mesh skin_of(int quads, uint32_t material) {
 }  // namespace
 
 scene::Scene head_chart(uint32_t quads) {
-  if (quads < 2 || quads % 2 != 0 || quads > 4096)
-    throw std::invalid_argument("a head's chart has an even number of quads a side, 2 to 4096");
+  if (quads < 4 || quads % 2 != 0 || quads > 4096)
+    throw std::invalid_argument("a head's chart has an even number of quads a side, 4 to 4096");
   scene::Scene scene = scene::load("builtin:head");
   scene.meshes = {skin_of(int(quads), scene.meshes.front().parts.front().material)};
   for (scene::Node& node : scene.nodes) {
