@@ -35,7 +35,7 @@ struct Choice {
   std::vector<std::string> devices{"cpu", "llvmpipe"};
   uint32_t size = 512;
   int rounds = 11;
-  float density = 5;
+  float density = usual_density;
   std::string parts, svg;
 };
 

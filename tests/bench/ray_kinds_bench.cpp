@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -203,20 +204,29 @@ std::string falls_table(const Result& result) {
   return markdown_table(head, rows);
 }
 
-// How fast the other kinds are beside eye rays: the median over the resolutions.
+// How fast a kind is beside eye rays: the median over the resolutions.
+double beside_eye(const std::map<uint32_t, Rates>& rates, size_t kind,
+                  const std::function<double(uint32_t)>& factor) {
+  std::vector<double> ratios;
+  for (const auto& [resolution, of_kinds] : rates) {
+    if (!std::isnan(of_kinds[kind])) ratios.push_back(factor(resolution) * of_kinds[kind] / of_kinds[eye]);
+  }
+  return median(ratios);
+}
+
 std::string kinds_table(const Result& result) {
   TableRow head{"times as fast as eye rays, median"};
   head.insert(head.end(), kind_names.begin() + 1, kind_names.end());
+  head.emplace_back("Glossy, every pixel counted");
   std::vector<TableRow> rows;
   for (const auto& [name, rates] : all_rates(result)) {
     TableRow row{name};
-    for (size_t kind = 1; kind < kind_count; ++kind) {
-      std::vector<double> ratios;
-      for (const auto& [resolution, of_kinds] : *rates) {
-        if (!std::isnan(of_kinds[kind])) ratios.push_back(of_kinds[kind] / of_kinds[eye]);
-      }
-      row.push_back(fmt::format("{:.2f}", median(ratios)));
-    }
+    for (size_t kind = 1; kind < kind_count; ++kind)
+      row.push_back(fmt::format("{:.2f}", beside_eye(*rates, kind, [](uint32_t) { return 1; })));
+    const bool ours = rates != &paper_rates;
+    row.push_back(!ours ? "" : fmt::format("{:.2f}", beside_eye(*rates, glossy, [&](uint32_t resolution) {
+                                             return 1 / result.glossy_share.at(resolution);
+                                           })));
     rows.push_back(row);
   }
   return markdown_table(head, rows);

@@ -98,7 +98,7 @@ class Storage {
                  surface = double(bvh.triangles().size() * sizeof(Triangle));
     rows_.push_back({"threaded BVH, plain C++", "cpu", bits_text(bvh_bytes, double(bvh.nodes().size())), "0",
                      bits_text(surface, count), fmt::format("{:.1f}", (bvh_bytes + surface) / count)});
-    const UniformGrid grid(triangles, 5);
+    const UniformGrid grid(triangles, usual_density);
     const double grid_bytes = double((grid.cell_count() + 1 + grid.reference_count()) * sizeof(uint32_t));
     rows_.push_back({"uniform grid, plain C++", "cpu", bits_text(grid_bytes, double(grid.cell_count())), "0",
                      bits_text(surface, count), fmt::format("{:.1f}", (grid_bytes + surface) / count)});
