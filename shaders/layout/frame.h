@@ -110,8 +110,8 @@ struct InstanceRecord {
   vec4 to_world[3];
   uint object;
   uint node;       // of the scene; no_index: none
-  float rounding;  // by how much rounding may grow on the way through both matrices, at least 1; negative: the
-                   // matrix has no inverse, and the instance is not seen
+  float rounding;  // by how much rounding may grow on the way through both matrices, at least 1; negative:
+                   // the matrix has no inverse, and the instance is not seen
   uint pad0;
 };
 

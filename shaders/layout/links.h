@@ -8,7 +8,7 @@ LODESTONE_LAYOUT_BEGIN
 struct LinksPush {
   uint depth;  // of the nodes whose links are written
   uint leaf_depth;
-  uint count;  // nodes on that level
+  uint count;       // nodes on that level
   uint first_node;  // of the hierarchy; links count from it
   uint first_slot;
   uint slots;  // leaf slots in use; those behind are padding

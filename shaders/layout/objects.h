@@ -2,8 +2,8 @@
 // Two levels: objects, each a geometry image with a hierarchy in a space of its own, and instances, which put
 // objects into the world (section 6 of the paper, "instancing"). The upper level is a tree of 16-bit boxes
 // (layout/boxes.h) over the instances' bounds in Morton order, made anew every frame; a ray that enters the
-// bound of one goes on through the object's hierarchy in the object's space. Directions are not normalised there, so that t is the
-// same number in both.
+// bound of one goes on through the object's hierarchy in the object's space. Directions are not normalised
+// there, so that t is the same number in both.
 //
 // A hit in an instance is one that the ray has in the object's space, provided that it enters the instance's
 // bound in the world; its t is never less than that entry. Bounds above a leaf contain it, so the order of
@@ -115,7 +115,6 @@ struct SortPush {
   uint count;
   uint run;  // keys of a run that is sorted; 0: none is
 };
-
 
 // What enter_instances is about: rays, or those of the round before.
 struct EnterPush {

@@ -6,8 +6,8 @@
 
 LODESTONE_LAYOUT_BEGIN
 
-// Traversal states between dispatches: { order, turns, 4 * depth + status, next } or { link, 0, status, next };
-// `next` as accept_triangle (trace.h) has it. At a restart, the second word is the instance that `next`
+// Traversal states between dispatches: { order, turns, 4 * depth + status, next } or { link, 0, status, next
+// }; `next` as accept_triangle (trace.h) has it. At a restart, the second word is the instance that `next`
 // belongs to (layout/objects.h).
 CONST uint trace_finished = 0u;
 CONST uint trace_unfinished = 1u;

@@ -30,18 +30,16 @@ struct SurfacePoint {
 };
 
 FN vec3 placed_direction(IN(SurfacePoint) point, vec3 d) {
-  return vec3(
-      point.to_world[0].x * d.x + point.to_world[0].y * d.y + point.to_world[0].z * d.z,
-      point.to_world[1].x * d.x + point.to_world[1].y * d.y + point.to_world[1].z * d.z,
-      point.to_world[2].x * d.x + point.to_world[2].y * d.y + point.to_world[2].z * d.z);
+  return vec3(point.to_world[0].x * d.x + point.to_world[0].y * d.y + point.to_world[0].z * d.z,
+              point.to_world[1].x * d.x + point.to_world[1].y * d.y + point.to_world[1].z * d.z,
+              point.to_world[2].x * d.x + point.to_world[2].y * d.y + point.to_world[2].z * d.z);
 }
 FN vec3 placed_point(IN(SurfacePoint) point, vec3 p) {
-  return vec3(point.to_world[0].x * p.x + point.to_world[0].y * p.y + point.to_world[0].z * p.z +
-                  point.to_world[0].w,
-              point.to_world[1].x * p.x + point.to_world[1].y * p.y + point.to_world[1].z * p.z +
-                  point.to_world[1].w,
-              point.to_world[2].x * p.x + point.to_world[2].y * p.y + point.to_world[2].z * p.z +
-                  point.to_world[2].w);
+  return vec3(
+      point.to_world[0].x * p.x + point.to_world[0].y * p.y + point.to_world[0].z * p.z + point.to_world[0].w,
+      point.to_world[1].x * p.x + point.to_world[1].y * p.y + point.to_world[1].z * p.z + point.to_world[1].w,
+      point.to_world[2].x * p.x + point.to_world[2].y * p.y + point.to_world[2].z * p.z +
+          point.to_world[2].w);
 }
 FN vec3 linear_row(vec4 row) {
   return vec3(row.x, row.y, row.z);

@@ -191,8 +191,8 @@ Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, co
   std::vector<ChartBox> boxes;
   if (atlas.charts.size() > 1) boxes = chart_boxes(scene, assembly, atlas);
   const uint64_t slots = assign_slots(atlas.charts, boxes, order, scene.name);
-  atlas.objects.push_back({tree_depth(slots), 0, static_cast<uint32_t>(slots), 0,
-                           static_cast<uint32_t>(atlas.texel_map.size())});
+  atlas.objects.push_back(
+      {tree_depth(slots), 0, static_cast<uint32_t>(slots), 0, static_cast<uint32_t>(atlas.texel_map.size())});
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.texels = atlas.texel_map.size();
   atlas.report.slots = slots;

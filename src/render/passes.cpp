@@ -101,16 +101,27 @@ constexpr Binding place_instances_bindings[] = {{"objects", quad, read},
 
 constexpr Binding sort_keys_bindings[] = {{"keys", word, read}, {"sorted", word, write}};
 
-constexpr Binding upper_leaves_bindings[] = {
-    {"keys", word, read}, {"instance_lo", quad, read}, {"instance_hi", quad, read}, {"upper_boxes", quad, write}};
+constexpr Binding upper_leaves_bindings[] = {{"keys", word, read},
+                                             {"instance_lo", quad, read},
+                                             {"instance_hi", quad, read},
+                                             {"upper_boxes", quad, write}};
 
-constexpr Binding enter_instances_bindings[] = {
-    {"rays", quad, read},         {"hits", quad, read_write},   {"hit_instances", word, read_write},
-    {"states", quad, read_write}, {"places", quad, read_write}, {"trails", quad, read_write},
-    {"steps", word, read_write},  {"upper_boxes", quad, read},  {"keys", word, read},
-    {"instance_lo", quad, read},  {"instance_hi", quad, read},  {"owners", word, read},
-    {"local_hits", quad, read},   {"local_steps", word, read},  {"found", word, write},
-    {"block_counts", structs, read_write}};
+constexpr Binding enter_instances_bindings[] = {{"rays", quad, read},
+                                                {"hits", quad, read_write},
+                                                {"hit_instances", word, read_write},
+                                                {"states", quad, read_write},
+                                                {"places", quad, read_write},
+                                                {"trails", quad, read_write},
+                                                {"steps", word, read_write},
+                                                {"upper_boxes", quad, read},
+                                                {"keys", word, read},
+                                                {"instance_lo", quad, read},
+                                                {"instance_hi", quad, read},
+                                                {"owners", word, read},
+                                                {"local_hits", quad, read},
+                                                {"local_steps", word, read},
+                                                {"found", word, write},
+                                                {"block_counts", structs, read_write}};
 
 constexpr Binding scan_blocks_bindings[] = {
     {"block_counts", structs, read_write}, {"block_starts", word, write}, {"entered", structs, read_write}};

@@ -35,8 +35,8 @@ inline Atlas sample_atlas() {
   atlas.texel_map = make_texel_map(atlas.charts);
   const uint64_t slots =
       assign_slots(atlas.charts, std::vector<ChartBox>(atlas.charts.size()), ChartOrder::median, scene.name);
-  atlas.objects.push_back({tree_depth(slots), 0, static_cast<uint32_t>(slots), 0,
-                           static_cast<uint32_t>(atlas.texel_map.size())});
+  atlas.objects.push_back(
+      {tree_depth(slots), 0, static_cast<uint32_t>(slots), 0, static_cast<uint32_t>(atlas.texel_map.size())});
   atlas.leaf_map = make_leaf_map(atlas.charts, slots);
   atlas.report.quads = quad_count(atlas.charts[0]) + 2 * 3;
   atlas.report.texels = atlas.texel_map.size();
