@@ -45,7 +45,7 @@ class Layers : public SurfaceKernel<Probe, source_count, is_layered> {
   }
 
  private:
-  Quads rays_ = this->quads(16), layers_ = this->quads(17);
+  Quads rays_ = this->quads(18), layers_ = this->quads(19);
 };
 
 LODESTONE_LAYERED_SURFACE_BLOCK_FUNCTION(layers, Layers)

@@ -80,10 +80,10 @@ TEST_F(AtlasFile, IsRefusedWhereItIsMissingOrSomethingElse) {
 
 TEST_F(AtlasFile, IsRefusedByTheVersionThatItNames) {
   Bytes file = pack_atlas(sample_atlas(), {"hash"});
-  file[8] = std::byte(7);
+  file[8] = std::byte(8);
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
-               "is a baked file of version 7");
+               "is a baked file of version 8");
   file[8] = std::byte(1);  // as files were before they said what they were baked from
   sign(file);
   expect_error([&] { unpack_atlas("x.lode", file, nullptr); }, ExitCode::bad_input, "x.lode",
@@ -245,9 +245,9 @@ TEST_F(AtlasFile, IsRefusedWhereItsRecordIsNone) {
 // Whatever sizes a file claims, memory follows the data that are there.
 TEST_F(AtlasFile, AllocatesNoMoreThanItHolds) {
   Bytes file = pack_atlas(sample_atlas(), {""});
-  constexpr size_t counts_at = 8 + 4 + 4 + (4 + 4 + 4 + 4 + 8 + 4 + 4 + 4) + 4 +
-                               4;  // magic, version, content, empty record, kind, depth
-  for (size_t which = 0; which < 7; ++which) {
+  constexpr size_t counts_at =
+      8 + 4 + 4 + (4 + 4 + 4 + 4 + 4 + 8 + 4 + 4 + 4) + 4;  // magic, version, content, empty record, kind
+  for (size_t which = 0; which < 8; ++which) {
     for (const uint64_t count :
          {uint64_t(1) << 28, (uint64_t(1) << 31) - 1, uint64_t(1) << 60, ~uint64_t(0)}) {
       Bytes bad = file;
