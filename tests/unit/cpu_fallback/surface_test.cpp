@@ -83,7 +83,7 @@ class KeepingBackend final : public render::Backend {
       sources = dispatch.constants[0];
       invocations = dispatch.invocations;
       buffers.clear();
-      for (size_t i = 0; i <= 16; ++i) {
+      for (size_t i = 0; i <= 18; ++i) {
         const render::BufferDesc& desc = inner_->desc(dispatch.buffers[i]);
         std::vector<uint32_t>& words = buffers.emplace_back(desc.elements * desc.element_bytes / 4);
         inner_->download(dispatch.buffers[i], std::as_writable_bytes(std::span(words)), 0);
