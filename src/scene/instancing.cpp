@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/scene/instancing.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "lodestone/layout/arithmetic.h"
 #include "lodestone/scene/pose.h"
+#include "lodestone/scene/pose_reach.h"
 
 namespace lodestone::scene {
 namespace {
@@ -20,6 +23,13 @@ bool has_inverse(const glm::mat4& matrix) {
   const float volume = std::abs(glm::determinant(linear));
   const float edges = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
   return std::isfinite(edges) && volume > edges * 1e-3f;
+}
+
+// Whether rays can be traced in the mesh's own space, whatever its nodes make of it.
+bool is_traceable(const Mesh& mesh) {
+  float reach = 0;
+  for (const glm::vec3& p : mesh.positions) reach = std::max(reach, layout::largest_abs(p));
+  return reach >= smallest_reach && reach <= largest_reach;
 }
 
 // Nodes that an animation moves, by themselves or with an ancestor.
@@ -54,7 +64,8 @@ Division divide_rigid(const Scene& scene) {
   Division division;
   std::vector<uint32_t> object_of(scene.nodes.size(), none);
   for (const MeshUse& use : uses) {
-    if (use.rigid.size() < 2 && !use.moved) continue;
+    if (use.rigid.empty() || (use.rigid.size() < 2 && !use.moved)) continue;
+    if (!is_traceable(scene.meshes[scene.nodes[use.rigid.front()].mesh])) continue;
     for (const uint32_t node : use.rigid) object_of[node] = static_cast<uint32_t>(division.objects.size());
     division.objects.push_back({{use.rigid.front()}, true});
   }

@@ -94,6 +94,16 @@ TEST(Instancing, LeavesInTheWorldWhatDeformsOrIsFlat) {
   EXPECT_EQ(division.objects[1].nodes, (std::vector<uint32_t>{1, 2}));
 }
 
+TEST(Instancing, LeavesInTheWorldWhatHasNoNumbersToTraceInItsOwnSpace) {
+  Scene scene = two_strips();
+  place(scene, 0);
+  EXPECT_EQ(divide(scene, Instancing::on).objects.size(), 2u);
+  for (glm::vec3& p : scene.meshes[0].positions) p *= 1e13f;
+  EXPECT_EQ(divide(scene, Instancing::on).objects.size(), 1u);
+  for (glm::vec3& p : scene.meshes[0].positions) p *= 1e-25f;
+  EXPECT_EQ(divide(scene, Instancing::on).objects.size(), 1u);
+}
+
 TEST(Instancing, IsAutomaticWhereItHalvesTheTriangles) {
   Scene scene = two_strips();  // 2 and 3 triangles
   EXPECT_EQ(divide(scene, Instancing::automatic).objects.size(), 1u);
