@@ -139,8 +139,8 @@ int run_parity(const ParityOptions& options) {
   OpenDevice device = open_device(wanted);
   const PreparedScene prepared = prepare_scene(options.scene, options.pose);
   check_distinct({{"--log", options.log}}, {{"the scene", prepared.scene.name}});  // which a .lode has named
-  render::ParityBackend parity(std::move(device.backend),
-                               cpu_fallback::make_cpu_backend(options.device.backend), options.fault);
+  const auto cpu = cpu_fallback::make_cpu_backend(options.device.backend);
+  render::ParityBackend parity(*device.backend, *cpu, options.fault);
   const KeepResults keep;
   render_frames(options, prepared, parity);
   return report(options, parity);

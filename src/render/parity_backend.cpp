@@ -11,7 +11,8 @@ namespace lodestone::render {
 // A buffer has the same id in all three; the device's contents lead, the reference's are made equal before
 // each pass.
 struct ParityBackend::State {
-  std::unique_ptr<Backend> device, reference;
+  Backend* device = nullptr;
+  Backend* reference = nullptr;
   std::optional<Fault> fault;
   bool fault_done = false;
   std::map<BufferId, std::pair<BufferId, BufferId>> ids;
@@ -72,11 +73,10 @@ struct ParityBackend::State {
   }
 };
 
-ParityBackend::ParityBackend(std::unique_ptr<Backend> device, std::unique_ptr<Backend> reference,
-                             std::optional<Fault> fault)
+ParityBackend::ParityBackend(Backend& device, Backend& reference, std::optional<Fault> fault)
     : state_(std::make_unique<State>()) {
-  state_->device = std::move(device);
-  state_->reference = std::move(reference);
+  state_->device = &device;
+  state_->reference = &reference;
   state_->fault = std::move(fault);
 }
 

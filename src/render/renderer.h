@@ -124,8 +124,8 @@ struct Fault {
 
 class ParityBackend : public Backend {
  public:
-  ParityBackend(std::unique_ptr<Backend> device, std::unique_ptr<Backend> reference,
-                std::optional<Fault> fault = {});
+  // Both must outlive it.
+  ParityBackend(Backend& device, Backend& reference, std::optional<Fault> fault = {});
   ~ParityBackend() override;
   const DeviceInfo& info() const override;
   BufferId create(const BufferDesc& desc) override;

@@ -275,7 +275,8 @@ TEST_P(DenoisedPasses, GiveTheBitsOfTheCpu) {
   render::Settings settings = path_settings(3);
   settings.denoise = true;
   const ReadyScene ready("builtin:spheres");
-  render::ParityBackend both(open(GetParam(), {.validate = true}), cpu_fallback::make_cpu_backend({}));
+  const auto device = open(GetParam(), {.validate = true}), cpu = open("cpu");
+  render::ParityBackend both(*device, *cpu);
   picture(both, ready, 0.3f, settings);
   uint32_t rows = 0;
   for (const auto& row : both.differences()) {

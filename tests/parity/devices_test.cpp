@@ -23,12 +23,17 @@ render::Settings small_settings() {
   return settings;
 }
 
-// Renders one frame on `device` with the CPU beside it.
-std::vector<render::PassDifference> differences(const ReadyScene& ready,
-                                                std::unique_ptr<render::Backend> device, float time,
+// A device and the CPU, opened once a test: most of the time of a small picture goes into making kernels.
+struct Pair {
+  explicit Pair(std::unique_ptr<render::Backend> opened) : device(std::move(opened)) {}
+  std::unique_ptr<render::Backend> device, cpu = cpu_fallback::make_cpu_backend({});
+};
+
+// Renders one frame on the device with the CPU beside it.
+std::vector<render::PassDifference> differences(const ReadyScene& ready, const Pair& pair, float time,
                                                 const render::Settings& settings,
                                                 std::optional<render::Fault> fault = {}) {
-  render::ParityBackend both(std::move(device), cpu_fallback::make_cpu_backend({}), fault);
+  render::ParityBackend both(*pair.device, *pair.cpu, fault);
   render::Renderer renderer(both, ready.scene, ready.assembly, ready.atlas, settings);
   const scene::Pose pose = ready.pose(time);
   const auto bounds = scene::pose_bounds(ready.scene, pose);
@@ -36,11 +41,10 @@ std::vector<render::PassDifference> differences(const ReadyScene& ready,
   return both.differences();
 }
 
-std::unique_ptr<render::Backend> open_validated(const std::string& name) {
-  return open(name, {.validate = true});
-}
-
-class Devices : public testing::TestWithParam<std::string> {};
+class Devices : public testing::TestWithParam<std::string> {
+ protected:
+  const Pair pair_{open(GetParam(), {.validate = true})};
+};
 
 void expect_equal(const std::vector<render::PassDifference>& rows) {
   EXPECT_GE(rows.size(), 20u);
@@ -54,63 +58,62 @@ void expect_equal(const std::vector<render::PassDifference>& rows) {
 constexpr render::Traversal all_traversals[] = {render::Traversal::threaded, render::Traversal::octant,
                                                 render::Traversal::wide, render::Traversal::automatic};
 
-void expect_equal(const ReadyScene& ready, const std::string& device, const render::Settings& settings) {
-  for (const float time : {0.0f, 0.6f})
-    expect_equal(differences(ready, open_validated(device), time, settings));
+void expect_equal(const ReadyScene& ready, const Pair& pair, const render::Settings& settings) {
+  for (const float time : {0.0f, 0.6f}) expect_equal(differences(ready, pair, time, settings));
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnSpheresByOctants) {
   render::Settings settings = small_settings();
   settings.traversal = render::Traversal::octant;
-  expect_equal(ReadyScene("builtin:spheres"), GetParam(), settings);
+  expect_equal(ReadyScene("builtin:spheres"), pair_, settings);
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnTerrainByLinks) {
   render::Settings settings = small_settings();
   settings.traversal = render::Traversal::threaded;
-  expect_equal(ReadyScene("builtin:terrain"), GetParam(), settings);
+  expect_equal(ReadyScene("builtin:terrain"), pair_, settings);
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnAnExactAtlas) {
-  expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact), GetParam(), small_settings());
+  expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact), pair_, small_settings());
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnResampledSpheres) {
   for (const auto traversal : all_traversals) {
     render::Settings settings = small_settings();
     settings.traversal = traversal;
-    expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts), GetParam(), settings);
+    expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts), pair_, settings);
   }
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnMappedChartsAndBesideThem) {
   ReadyScene spheres("builtin:spheres"), head("builtin:head");
   map_grids(spheres.atlas);
-  expect_equal(spheres, GetParam(), small_settings());
+  expect_equal(spheres, pair_, small_settings());
   map_grids(head.atlas, 2);
-  expect_equal(head, GetParam(), small_settings());
+  expect_equal(head, pair_, small_settings());
   for (const bool tangents : {true, false})
-    expect_equal(straddled_squares({.tangents = tangents, .cut_out = tangents}), GetParam(),
-                 small_settings());
+    expect_equal(straddled_squares({.tangents = tangents, .cut_out = tangents}), pair_, small_settings());
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnMorphsSkinsAndTextures) {
   const auto file = data_file("RobotExpressive.glb");
   if (!file) GTEST_SKIP() << "shared data are absent";
   for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts})
-    expect_equal(ReadyScene(*file, kind), GetParam(), small_settings());
+    expect_equal(ReadyScene(*file, kind), pair_, small_settings());
 }
 
 // With no light but the map, and with a key light beside it.
 TEST_P(Devices, GiveTheBitsOfTheCpuUnderEnvironmentMaps) {
+  const Pair split(open_split(GetParam(), 20000, {.validate = true}));
   for (const char* name : {"builtin:spheres", "builtin:tiny"}) {
     ReadyScene ready(name);
     ready.scene.environment = sunny_environment(130, 65, 2);
     ready.scene.environment->rotation = 40;
     render::Settings settings = small_settings();
     settings.spp = 4;
-    expect_equal(ready, GetParam(), settings);
-    expect_equal(differences(ready, open_split(GetParam(), 20000, {.validate = true}), 0.6f, settings));
+    expect_equal(ready, pair_, settings);
+    expect_equal(differences(ready, split, 0.6f, settings));
   }
 }
 
@@ -120,21 +123,22 @@ TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
     settings.traversal = traversal;
     settings.aovs = {"depth", "id"};  // for `steps` no tiles are traced
     settings.loop_budget = 7;
-    expect_equal(ReadyScene("builtin:tiny"), GetParam(), settings);
+    expect_equal(ReadyScene("builtin:tiny"), pair_, settings);
     settings.loop_budget = 40;
-    expect_equal(ReadyScene("builtin:spheres"), GetParam(), settings);
+    expect_equal(ReadyScene("builtin:spheres"), pair_, settings);
   }
 }
 
 // As with scenes whose arrays are larger than a buffer of the device can be: here most of them.
 TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
   using geometry_image::AtlasKind;
+  const Pair split(open_split(GetParam(), 20000, {.validate = true}));
   for (const auto kind : {AtlasKind::grid, AtlasKind::exact, AtlasKind::charts}) {
     const ReadyScene ready("builtin:spheres", kind);
     for (const auto traversal : all_traversals) {
       render::Settings settings = small_settings();
       settings.traversal = traversal;
-      expect_equal(differences(ready, open_split(GetParam(), 20000, {.validate = true}), 0.6f, settings));
+      expect_equal(differences(ready, split, 0.6f, settings));
     }
   }
 }
@@ -155,7 +159,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
     for (const auto traversal : all_traversals) {
       render::Settings settings = small_settings();
       settings.traversal = traversal;
-      expect_equal(ready, GetParam(), settings);
+      expect_equal(ready, pair_, settings);
     }
   }
 }
@@ -165,12 +169,12 @@ TEST_P(Devices, GiveTheBitsOfTheCpuThroughInstances) {
   for (const auto traversal : all_traversals) {
     render::Settings settings = small_settings();
     settings.traversal = traversal;
-    expect_equal(ready, GetParam(), settings);
+    expect_equal(ready, pair_, settings);
   }
   render::Settings settings = small_settings();
   settings.integrator = render::Integrator::path;
   settings.loop_budget = 3;  // rays rest on their way through both levels
-  expect_equal(ready, GetParam(), settings);
+  expect_equal(ready, pair_, settings);
 }
 
 // A coated, a transparent and a plain square, each beside the others in the picture; all textures used.
@@ -210,7 +214,7 @@ scene::Scene layered_squares() {
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnLayeredMaterials) {
   for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts})
-    expect_equal(ReadyScene(layered_squares(), kind), GetParam(), small_settings());
+    expect_equal(ReadyScene(layered_squares(), kind), pair_, small_settings());
 }
 
 // Glass, coats and mirrors, lit by lamps, a sky and a map, through cut-out layers, and out of focus.
@@ -230,7 +234,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuWithEveryIntegrator) {
     settings.max_bounces = 4;
     settings.lens_radius = 0.05f;
     for (const ReadyScene* ready : std::initializer_list<const ReadyScene*>{&layers, &spheres, &masked})
-      expect_equal(differences(*ready, open_validated(GetParam()), 0.6f, settings));
+      expect_equal(differences(*ready, pair_, 0.6f, settings));
   }
 }
 
@@ -242,7 +246,7 @@ TEST_P(Devices, ShowAFaultInThePassItHappenedIn) {
                            "occlude", "accumulate", "resolve"}) {
     render::Settings settings = small_settings();
     if (std::string(pass) == "links") settings.traversal = render::Traversal::threaded;
-    const auto rows = differences(ready, open_validated(GetParam()), 0, settings, render::Fault{pass, bit});
+    const auto rows = differences(ready, pair_, 0, settings, render::Fault{pass, bit});
     uint32_t found = 0;
     for (const auto& row : rows) {
       if (row.different == 0) continue;

@@ -70,9 +70,9 @@ void add_sun(scene::Scene& scene, float intensity, float angle) {
 class Integrators : public testing::TestWithParam<std::string> {
  protected:
   image::Image render(const scene::Scene& scene, const render::Settings& settings) const {
-    const auto backend = open(GetParam(), {.validate = GetParam() != "cpu"});
-    return picture(*backend, ReadyScene(scene, AtlasKind::exact), 0, settings);
+    return picture(*backend_, ReadyScene(scene, AtlasKind::exact), 0, settings);
   }
+  const std::unique_ptr<render::Backend> backend_ = open(GetParam(), {.validate = GetParam() != "cpu"});
 };
 
 double mean(const image::Image& image, const char* channel) {

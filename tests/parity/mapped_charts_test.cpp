@@ -17,13 +17,13 @@ namespace {
 
 class MappedCharts : public testing::TestWithParam<std::string> {
  protected:
-  static image::Image render(const ReadyScene& ready, uint32_t size) {
-    const auto backend = open(GetParam(), {.validate = GetParam() != "cpu"});
+  image::Image render(const ReadyScene& ready, uint32_t size) const {
     render::Settings settings;
     settings.width = settings.height = size;
     settings.aovs = {"depth", "normal", "albedo", "uv", "id"};
-    return picture(*backend, ready, 0.4f, settings);
+    return picture(*backend_, ready, 0.4f, settings);
   }
+  const std::unique_ptr<render::Backend> backend_ = open(GetParam(), {.validate = GetParam() != "cpu"});
 };
 
 double largest_difference(const image::Image& a, const image::Image& b, const std::string& name) {

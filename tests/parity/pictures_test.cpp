@@ -40,14 +40,17 @@ class Pictures : public testing::TestWithParam<std::tuple<std::string, AtlasKind
  protected:
   image::Image render(const scene::Scene& scene, uint32_t size = 16,
                       render::Traversal traversal = render::Traversal::automatic) const {
-    const auto& [device, kind] = GetParam();
-    const auto backend = open(device, {.validate = device != "cpu"});
     render::Settings settings = settings_of(size);
     settings.traversal = traversal;
-    return picture(*backend, ReadyScene(scene, kind), 0, settings);
+    return picture(*backend_, ReadyScene(scene, std::get<1>(GetParam())), 0, settings);
   }
   // Of what is the same everywhere: a hit on a resampled surface adds what three triangles say.
   static float rounding() { return std::get<1>(GetParam()) == AtlasKind::exact ? 0 : 1e-6f; }
+  static std::unique_ptr<render::Backend> opened() {
+    const std::string& device = std::get<0>(GetParam());
+    return open(device, {.validate = device != "cpu"});
+  }
+  const std::unique_ptr<render::Backend> backend_ = opened();
 };
 
 const glm::vec3 red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1);

@@ -94,7 +94,8 @@ TEST_P(Relaxation, OfAFrameDoesNotDependOnTheFramesBefore) {
 
 // Every pass of whole frames, those of relaxation among them.
 TEST_P(Relaxation, HasEqualBuffersInEveryPass) {
-  render::ParityBackend parity(open(GetParam()), cpu_fallback::make_cpu_backend({}));
+  const auto device = open(GetParam()), cpu = open("cpu");
+  render::ParityBackend parity(*device, *cpu);
   render::Settings settings = with_sweeps(2);
   settings.aovs = {"depth", "normal", "uv", "id"};
   render::Renderer renderer(parity, ready_.scene, ready_.assembly, ready_.atlas, settings);
