@@ -31,8 +31,8 @@ void count_write(uint words) { words_written += counting * words; }
 // An array is cut into segments of 2^segment_shift bytes. A binding shows either the array or, where its bit is set in
 // `addressed`, the addresses of the array's segments; all pipelines know at their creation which.
 #extension GL_EXT_buffer_reference_uvec2 : require
-layout(constant_id = 7) const uint addressed = 0u;
-layout(constant_id = 8) const uint segment_shift = 31u;
+layout(constant_id = 8) const uint addressed = 0u;
+layout(constant_id = 9) const uint segment_shift = 31u;
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer QuadSegment { uvec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer WordSegment { uint at[]; };
 #define SPLIT_DATA(slot, access, type, name)                                                                              \

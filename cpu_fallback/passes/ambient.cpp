@@ -41,8 +41,8 @@ class Ambient : public SurfaceKernel<Probe, source_count> {
   }
 
  private:
-  Quads rays_ = this->quads(18), contributions_ = this->quads(19), shadow_rays_ = this->quads(20),
-        radiance_ = this->quads(21);
+  Quads rays_ = this->quads(19), contributions_ = this->quads(20), shadow_rays_ = this->quads(21),
+        radiance_ = this->quads(22);
   AmbientPush push_ = this->template push<AmbientPush>();
 };
 

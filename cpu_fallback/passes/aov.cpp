@@ -49,9 +49,9 @@ class Aov : public SurfaceKernel<Probe, source_count> {
   }
 
  private:
-  Quads rays_ = this->quads(18);
-  Words steps_ = this->words(19);
-  Quads aovs_ = this->quads(20);
+  Quads rays_ = this->quads(19);
+  Words steps_ = this->words(20);
+  Quads aovs_ = this->quads(21);
   RayPush push_ = this->template push<RayPush>();
 };
 

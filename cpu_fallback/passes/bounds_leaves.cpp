@@ -29,6 +29,14 @@ class BoundsLeaves : public Kernel<Probe> {
   }
 
  private:
+  HWY_ATTR BoundLanes bound_quad(uint64_t texel, uint32_t stride) {
+    const Lanes4 a = load_lanes(this->loaded(geometry_, texel)),
+                 b = load_lanes(this->loaded(geometry_, texel + 1)),
+                 c = load_lanes(this->loaded(geometry_, texel + stride)),
+                 e = load_lanes(this->loaded(geometry_, texel + stride + 1));
+    return {min(min(a, b), min(c, e)), max(max(a, b), max(c, e))};
+  }
+
   HWY_ATTR BoundLanes bound_leaf(uint32_t slot) {
     BoundLanes bound = empty_bound();
     uint32_t texel = layout::empty_slot, stride = 0;
@@ -38,11 +46,8 @@ class BoundsLeaves : public Kernel<Probe> {
       stride = this->load(leaf_map_, entry + 1);
     }
     if (texel != layout::empty_slot) {
-      const Lanes4 a = load_lanes(this->loaded(geometry_, texel)),
-                   b = load_lanes(this->loaded(geometry_, texel + 1)),
-                   c = load_lanes(this->loaded(geometry_, texel + stride)),
-                   e = load_lanes(this->loaded(geometry_, texel + stride + 1));
-      bound = {min(min(a, b), min(c, e)), max(max(a, b), max(c, e))};
+      bound = bound_quad(uint64_t(push_.image) + texel, stride);
+      if (moving_) bound = join(bound, bound_quad(uint64_t(push_.next_image) + texel, stride));
     }
     if (slot < push_.written) {
       const uint32_t address = push_.first_node + layout::level_base(push_.depth) + slot;
@@ -55,6 +60,7 @@ class BoundsLeaves : public Kernel<Probe> {
   Words leaf_map_ = this->words(0);
   Quads geometry_ = this->quads(1), nodes_lo_ = this->quads(2), nodes_hi_ = this->quads(3);
   layout::BoundsPush push_ = this->template push<layout::BoundsPush>();
+  bool moving_ = this->constant(0) != 0;
 };
 
 LODESTONE_BLOCK_FUNCTION(HWY_ATTR, bounds_leaves, BoundsLeaves)

@@ -23,14 +23,19 @@ class BoxesLeaves : public BoxesKernel<Probe> {
   }
 
  private:
+  layout::Bound bound_quad(uint64_t texel, uint32_t stride) {
+    return layout::quad_bound(
+        as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
+        as_vec3(this->load(geometry_, texel + stride)), as_vec3(this->load(geometry_, texel + stride + 1)));
+  }
+
   layout::Box bound_leaf(uint32_t slot, float& reach) {
     if (slot >= this->push_.count) return layout::empty_box();
     const uint64_t entry = 2 * (uint64_t(this->push_.first_slot) + slot);
     const uint32_t texel = this->load(leaf_map_, entry), stride = this->load(leaf_map_, entry + 1);
     if (texel == layout::empty_slot) return layout::empty_box();
-    const layout::Bound bound = layout::quad_bound(
-        as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
-        as_vec3(this->load(geometry_, texel + stride)), as_vec3(this->load(geometry_, texel + stride + 1)));
+    layout::Bound bound = bound_quad(uint64_t(this->push_.image) + texel, stride);
+    if (moving_) bound = layout::join(bound, bound_quad(uint64_t(this->push_.next_image) + texel, stride));
     reach = layout::max2(reach, layout::max2(layout::largest_abs(bound.lo), layout::largest_abs(bound.hi)));
     return layout::bound_box(bound.lo, bound.hi, this->push_.grid, per_step_);
   }
@@ -45,6 +50,7 @@ class BoxesLeaves : public BoxesKernel<Probe> {
   Words leaf_map_ = this->words(0);
   Quads geometry_ = this->quads(1), boxes_ = this->quads(2);
   Words extents_ = this->words(3), groups_ = this->words(4);
+  bool moving_ = this->constant(0) != 0;
   glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
 };
 

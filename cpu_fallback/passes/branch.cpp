@@ -97,8 +97,8 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
     branch_ = select(this->active(), branch, branch_);
   }
 
-  Quads rays_ = this->quads(18), paths_ = this->quads(19), branches_ = this->quads(20);
-  Words going_on_ = this->words(21);
+  Quads rays_ = this->quads(19), paths_ = this->quads(20), branches_ = this->quads(21);
+  Words going_on_ = this->words(22);
   PathPush push_ = this->template push<PathPush>();
 
   // Of the invocations that run.

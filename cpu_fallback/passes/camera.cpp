@@ -20,15 +20,30 @@ class Camera : public VaryingKernel<Probe> {
 
   HWY_ATTR void operator()() {
     const uvec1 index = this->own_index();
+    const FrameRecord& frame = frames_[0];
+    CameraAxes axes = HWY_NAMESPACE::camera_axes(frame);  // not that of layout
+    if (frame.segments != 0) {
+      const vec1 time = shutter_time(frame, push_.first_ray + index, push_.sample_index, push_.instant);
+      this->store(times_, index, floatBitsToUint(time));
+      const Moment moment = moment_of(time, frame.segments);
+      vec3* const axis[] = {&axes.origin,  &axes.right,      &axes.up,
+                            &axes.forward, &axes.lens_right, &axes.lens_up};
+      for (uint32_t i = 0; i < camera_quads; ++i) {
+        const uvec1 at = moment.segment * camera_quads + i;
+        *axis[i] = moved3(as_vec3(this->load(cameras_, at)), as_vec3(this->load(cameras_, at + camera_quads)),
+                          moment.fraction);
+      }
+    }
     const Ray ray =
-        camera_ray(frames_[0], push_.first_ray + index, push_.sample_index, push_.centered, push_.pinhole);
+        camera_ray(frame, axes, push_.first_ray + index, push_.sample_index, push_.centered, push_.pinhole);
     this->store_own(rays_, as_bits(ray.origin, floatBitsToUint(ray.tmin)), 2);
     this->store_own(rays_, as_bits(ray.direction, floatBitsToUint(ray.tmax)), 2, 1);
   }
 
  private:
   Structs<FrameRecord> frames_ = this->template structs<FrameRecord>(0);
-  Quads rays_ = this->quads(1);
+  Quads rays_ = this->quads(1), cameras_ = this->quads(2);
+  Words times_ = this->words(3);
   RayPush push_ = this->template push<RayPush>();
 };
 

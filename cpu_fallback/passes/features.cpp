@@ -42,7 +42,7 @@ class Features : public SurfaceKernel<Probe, source_count> {
  private:
   HWY_ATTR static vec4 with_w(const vec3& v, vec1 w) { return {v.x, v.y, v.z, w}; }
 
-  Quads rays_ = this->quads(18), features_ = this->quads(19);
+  Quads rays_ = this->quads(19), features_ = this->quads(20);
   FeaturesPush push_ = this->template push<FeaturesPush>();
 };
 

@@ -48,8 +48,8 @@ class Mask : public SurfaceKernel<Probe, source_count> {
     return cut_out;
   }
 
-  Quads rays_ = this->quads(18), states_ = this->quads(19);
-  Words pending_ = this->words(20);
+  Quads rays_ = this->quads(19), states_ = this->quads(20);
+  Words pending_ = this->words(21);
 };
 
 LODESTONE_SURFACE_BLOCK_FUNCTION(mask, Mask)

@@ -20,9 +20,9 @@ HWY_ATTR inline DrawnLight select(bvec1 condition, const DrawnLight& yes, const 
 }
 
 template <class Probe, uint32_t source_count, bool is_layered>
-class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 25> {
+class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 26> {
  public:
-  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 25>::EnvironmentKernel;
+  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 26>::EnvironmentKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
@@ -109,11 +109,11 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
     return drawn;
   }
 
-  Quads rays_ = this->quads(18);
-  Structs<LightRecord> lights_ = this->template structs<LightRecord>(19);
-  Quads contributions_ = this->quads(20), shadow_rays_ = this->quads(21), radiance_ = this->quads(22),
-        paths_ = this->quads(23);
-  Words going_on_ = this->words(24);
+  Quads rays_ = this->quads(19);
+  Structs<LightRecord> lights_ = this->template structs<LightRecord>(20);
+  Quads contributions_ = this->quads(21), shadow_rays_ = this->quads(22), radiance_ = this->quads(23),
+        paths_ = this->quads(24);
+  Words going_on_ = this->words(25);
   PathPush push_ = this->template push<PathPush>();
 
   // Of the invocations that run.

@@ -22,8 +22,8 @@ class Rasterise : public Kernel<Probe> {
   HWY_ATTR void operator()(uint32_t index) {
     const uint32_t texel = push_.first + index;
     const glm::uvec4 source = this->load(texel_map_, texel);
-    uint32_t* point = this->stored(geometry_, texel);
-    uint32_t* direction = this->stored(normal_map_, texel);
+    uint32_t* point = this->stored(geometry_, uint64_t(push_.image) + texel);
+    uint32_t* direction = this->stored(normal_map_, uint64_t(push_.image) + texel);
     if (source.w == 0) {
       store_lanes(all_lanes(0), 0, point);
       store_lanes(all_lanes(0), 0, direction);
@@ -47,7 +47,7 @@ class Rasterise : public Kernel<Probe> {
   Quads texel_map_ = this->quads(0), triangles_ = this->quads(1);
   Quads positions_ = this->quads(2), normals_ = this->quads(3);
   Quads geometry_ = this->quads(4), normal_map_ = this->quads(5);
-  layout::RangePush push_ = this->template push<layout::RangePush>();
+  layout::RasterisePush push_ = this->template push<layout::RasterisePush>();
 };
 
 LODESTONE_BLOCK_FUNCTION(HWY_ATTR, rasterise, Rasterise)

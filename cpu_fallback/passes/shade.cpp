@@ -16,9 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
 template <class Probe, uint32_t source_count, bool is_layered>
-class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 23> {
+class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 24> {
  public:
-  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 23>::EnvironmentKernel;
+  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 24>::EnvironmentKernel;
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
@@ -67,10 +67,10 @@ class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_lay
   }
 
  private:
-  Quads rays_ = this->quads(18);
-  Structs<LightRecord> lights_ = this->template structs<LightRecord>(19);
-  Quads contributions_ = this->quads(20), shadow_rays_ = this->quads(21), radiance_ = this->quads(22);
-  Quads paths_ = this->quads(26);
+  Quads rays_ = this->quads(19);
+  Structs<LightRecord> lights_ = this->template structs<LightRecord>(20);
+  Quads contributions_ = this->quads(21), shadow_rays_ = this->quads(22), radiance_ = this->quads(23);
+  Quads paths_ = this->quads(27);
   RayPush push_ = this->template push<RayPush>();
 };
 

@@ -145,10 +145,11 @@ HWY_ATTR inline void test_boxes(const WideNode& node, const SingleRay& ray, floa
 
 // The exact test of one quad whose edge functions have let the ray through.
 template <class Block>
-HWY_ATTR HWY_FLATTEN HWY_NOINLINE void accept_quad(const Block& block, const SingleRay& ray, uint32_t texel,
+HWY_ATTR HWY_FLATTEN HWY_NOINLINE void accept_quad(Block& block, const SingleRay& ray,
+                                                   const typename Block::Moving& moving, uint32_t texel,
                                                    uint32_t stride, layout::Hit& best) {
-  const glm::vec3 a = block.texel(texel), b = block.texel(texel + 1);
-  const glm::vec3 c = block.texel(texel + stride), e = block.texel(texel + stride + 1);
+  const glm::vec3 a = block.texel(texel, moving), b = block.texel(texel + 1, moving);
+  const glm::vec3 c = block.texel(texel + stride, moving), e = block.texel(texel + stride + 1, moving);
   const layout::Bound bound = layout::quad_bound(a, b, c, e);
   const layout::Slabs slabs = layout::make_slabs(ray.ray, ray.extent);
   const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.ray.tmin);
@@ -195,12 +196,18 @@ struct QuadLanes {
 // layout::intersect_quad's edge functions for up to `quads_at_once` quads; returns a bit a quad, four apart:
 // the ray passes one of its triangles.
 template <class Block>
-HWY_ATTR inline uint32_t pass_edges(const Block& block, const SingleRay& ray, const uint32_t* texels,
-                                    const uint32_t* strides, QuadLanes& lanes) {
+HWY_ATTR inline uint32_t pass_edges(Block& block, const SingleRay& ray, const typename Block::Moving& moving,
+                                    const uint32_t* texels, const uint32_t* strides, QuadLanes& lanes) {
   const Corners d;
   const hn::Repartition<uint64_t, Corners> pairs;
   const float* from[4][quads_at_once];
+  float moved[quads_at_once][16];
   for (uint32_t i = 0; i < quads_at_once; ++i) {
+    if (block.moves()) {
+      block.moved_corners(texels[i], strides[i], moving, moved[i]);
+      for (uint32_t corner = 0; corner < 4; ++corner) from[corner][i] = moved[i] + 4 * corner;
+      continue;
+    }
     from[0][i] = block.texels(texels[i]);
     from[1][i] = from[0][i] + 4;
     from[2][i] = block.texels(texels[i] + strides[i]);
@@ -261,7 +268,8 @@ HWY_ATTR inline bool may_hit(const QuadLanes& lanes, uint32_t quad, float tmin, 
 // The quads of a record's children `hits`.
 template <class Block>
 HWY_ATTR inline void test_quads(Block& block, const TraceTree& tree, const SingleRay& ray,
-                                uint32_t first_slot, uint32_t hits, const float* enter, layout::Hit& best) {
+                                const typename Block::Moving& moving, uint32_t first_slot, uint32_t hits,
+                                const float* enter, layout::Hit& best) {
 #if HWY_TARGET == HWY_SCALAR
   constexpr uint32_t quads_at_once = 1;
 #endif
@@ -276,17 +284,18 @@ HWY_ATTR inline void test_quads(Block& block, const TraceTree& tree, const Singl
     if (count == 0) return;
     block.count_quads(count);
 #if HWY_TARGET == HWY_SCALAR
-    accept_quad(block, ray, texels[0], strides[0], best);
+    accept_quad(block, ray, moving, texels[0], strides[0], best);
 #else
     for (uint32_t i = count; i < quads_at_once; ++i) {
       texels[i] = texels[0];
       strides[i] = strides[0];
     }
     QuadLanes lanes;
-    uint32_t passed = pass_edges(block, ray, texels, strides, lanes) & ((1u << 4 * count) - 1);
+    uint32_t passed = pass_edges(block, ray, moving, texels, strides, lanes) & ((1u << 4 * count) - 1);
     for (; passed != 0; passed &= passed - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(passed)) / 4;
-      if (may_hit(lanes, i, ray.ray.tmin, best.t)) accept_quad(block, ray, texels[i], strides[i], best);
+      if (may_hit(lanes, i, ray.ray.tmin, best.t))
+        accept_quad(block, ray, moving, texels[i], strides[i], best);
     }
 #endif
   }
@@ -357,9 +366,11 @@ struct Stack {
 };
 
 // One ray on its way.
+template <class Block>
 struct Flight {
   std::optional<TraceTree> tree;
   SingleRay ray;
+  typename Block::Moving moving;
   layout::Hit best;
   uint32_t index, record, visits;
   Stack stack;
@@ -367,7 +378,7 @@ struct Flight {
 
 // Starts ray `index`; false: it needs no step.
 template <class Block>
-HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
+HWY_ATTR inline bool start(Block& block, uint32_t index, Flight<Block>& flight) {
   if (!block.wanted(index)) return false;
   const layout::Ray ray = block.ray(index);
   flight.best = {ray.tmax, 0, 0, layout::no_index};
@@ -375,7 +386,7 @@ HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
     block.finish(index, false, flight.best, 0);
     return false;
   }
-  flight.tree = block.tree(index);
+  flight.tree = block.tree(index, flight.moving);
   make_ready(block.ray_quads(index), *flight.tree, flight.ray);
   flight.ray.next = block.next(index);
   flight.index = index;
@@ -386,7 +397,7 @@ HWY_ATTR inline bool start(Block& block, uint32_t index, Flight& flight) {
 
 // Visits a record and finds the next; false: there is none.
 template <class Block>
-HWY_ATTR inline bool step(Block& block, Flight& flight) {
+HWY_ATTR inline bool step(Block& block, Flight<Block>& flight) {
   const TraceTree& tree = *flight.tree;
   const uint32_t first_leaf = tree.first_leaf_record(), end = tree.end_record();
   const uint32_t record = flight.record;
@@ -396,8 +407,8 @@ HWY_ATTR inline bool step(Block& block, Flight& flight) {
   ++flight.visits;
   if (record >= first_leaf) {
     if (entered.hits != 0) {
-      test_quads(block, tree, flight.ray, (record - first_leaf) * wide_fan, entered.hits, entered.enter,
-                 flight.best);
+      test_quads(block, tree, flight.ray, flight.moving, (record - first_leaf) * wide_fan, entered.hits,
+                 entered.enter, flight.best);
       if (block.any_hit() && flight.best.primitive != layout::no_index) return false;
     }
   } else if (entered.hits != 0) {
@@ -421,10 +432,10 @@ constexpr uint32_t flights_at_once = 4;
 
 template <class Block>
 HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32_t count) {
-  Flight flights[flights_at_once];
-  Flight* active[flights_at_once];
+  Flight<Block> flights[flights_at_once];
+  Flight<Block>* active[flights_at_once];
   uint32_t next = 0, size = 0;
-  const auto fill = [&](Flight& flight) HWY_ATTR {
+  const auto fill = [&](Flight<Block>& flight) HWY_ATTR {
     while (next < count) {
       if (start(block, indices[next++], flight)) return true;
     }
@@ -436,7 +447,7 @@ HWY_ATTR inline void trace_singles(Block& block, const uint32_t* indices, uint32
   }
   while (size != 0) {
     for (uint32_t i = 0; i < size; ++i) {
-      Flight& flight = *active[i];
+      Flight<Block>& flight = *active[i];
       if (step(block, flight)) {
         const TraceTree& tree = *flight.tree;
         hwy::Prefetch(&tree.wide_node(flight.record).planes[0]);

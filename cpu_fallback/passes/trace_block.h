@@ -81,22 +81,31 @@ class TraceBlock : public NodesKernel<Probe, 10> {
 
   bool any_hit() const { return NodesKernel<Probe, 10>::any_hit(); }
 
-  // The hierarchy that ray `index` goes through.
-  TraceTree tree(uint32_t index) {
-    return TraceTree(this->load_object(this->root(index)), this->nodes_lo_, this->nodes_hi_, wide_,
+  using Moving = typename NodesKernel<Probe, 10>::Moving;
+  using NodesKernel<Probe, 10>::moves;
+
+  // The hierarchy that ray `index` goes through, and when it sees the quads.
+  TraceTree tree(uint32_t index, Moving& moving) {
+    return TraceTree(this->load_object(this->root(index, moving)), this->nodes_lo_, this->nodes_hi_, wide_,
                      leaf_map_);
+  }
+  TraceTree tree(uint32_t index) {
+    Moving still;
+    return tree(index, still);
   }
 
   // Do these rays go together? All in one object and of one octant, from nearby origins, in a narrow cone.
   bool coherent(uint32_t first, uint32_t count) {
-    if (count < 4 || this->push_.resume != 0) return false;
-    const uint32_t object = this->root(first);
+    if (count < 4 || this->push_.resume != 0 || moves()) return false;
+    Moving still;
+    const uint32_t object = this->root(first, still);
     const glm::vec3 lead = direction(first);
     const uint32_t octant = octant_of(lead);
     glm::vec3 lo = origin(first), hi = lo;
     for (uint32_t i = first; i < first + count; ++i) {
       const glm::vec3 other = direction(i);
-      if (this->root(i) != object || octant_of(other) != octant || !(layout::dot3(lead, other) >= 0.98f))
+      if (this->root(i, still) != object || octant_of(other) != octant ||
+          !(layout::dot3(lead, other) >= 0.98f))
         return false;
       lo = layout::min3(lo, origin(i));
       hi = layout::max3(hi, origin(i));
@@ -167,9 +176,24 @@ class TraceBlock : public NodesKernel<Probe, 10> {
   }
   void count_quads(uint32_t count) {
     this->probe.triangles(2 * count);
-    this->probe.read(18 * count);
+    this->probe.read((moves() ? 34 : 18) * count);
   }
 
+  // The corners of a quad a, b, c, d, four floats each, at a ray's time.
+  void moved_corners(uint32_t first, uint32_t stride, const Moving& moving, float* corners) const {
+    const uint32_t at[4] = {first, first + 1, first + stride, first + stride + 1};
+    for (int i = 0; i < 4; ++i) {
+      const glm::vec3 point = texel(at[i], moving);
+      for (int axis = 0; axis < 3; ++axis) corners[4 * i + axis] = point[axis];
+      corners[4 * i + 3] = 0;
+    }
+  }
+  glm::vec3 texel(uint32_t index, const Moving& moving) const {
+    const glm::vec3 point = as_vec3(this->geometry_.load4(moving.image + index));
+    if (!moves()) return point;
+    const uint64_t next = moving.image + this->push_.image_texels + index;
+    return layout::moved3(point, as_vec3(this->geometry_.load4(next)), moving.passed);
+  }
   const float* texels(uint32_t index) const {
     return reinterpret_cast<const float*>(this->geometry_.words) + 4 * uint64_t(index);
   }

@@ -15,7 +15,7 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
-    const uint32_t root = this->root(index);
+    const uint32_t root = this->root(index, moving_);
     object_ = this->load_object(root);
     const layout::Slabs slabs = layout::make_slabs(ray, extents_[root]);
     const layout::Shear shear = layout::make_shear(ray);
@@ -61,12 +61,13 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
     for (uint32_t i = 0; i < list >> 8; ++i) {
       const uint64_t slot = object_.first_slot + 4 * uint64_t(walk.index) + (list >> 2 * i & 3u);
       const uint32_t texel = this->load(leaf_map_, 2 * slot), stride = this->load(leaf_map_, 2 * slot + 1);
-      this->test_quad(texel, stride, ray, slabs, shear, next, best);
+      this->test_quad(texel, stride, moving_, ray, slabs, shear, next, best);
       if (this->any_hit() && best.primitive != layout::no_index) return;
     }
   }
 
   layout::ObjectRecord object_{};
+  typename TraceKernel<Probe, 10>::Moving moving_;
   Quads boxes_ = this->quads(6);
   Words leaf_map_ = this->words(7);
   Structs<float> extents_ = this->template structs<float>(8);

@@ -4,11 +4,12 @@
 #pragma once
 
 #include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/motion.h"
 #include "lodestone/layout/objects.h"
 
 namespace lodestone::cpu_fallback {
 
-// `objects` and `roots` come in these two slots.
+// `objects`, `roots` and `times` come in these three slots.
 template <class Probe, size_t objects_slot>
 class TraceKernel : public Kernel<Probe> {
  public:
@@ -26,8 +27,21 @@ class TraceKernel : public Kernel<Probe> {
     return layout::stored_ray(from, along);
   }
 
-  // The object whose hierarchy the ray goes through.
-  uint32_t root(uint32_t index) { return instanced_ ? this->load(roots_, index) : 0; }
+  // When a ray sees the quads, as the geometry images at both ends of a segment have them (layout/motion.h).
+  struct Moving {
+    uint64_t image = 0;  // first texel
+    float passed = 0;
+  };
+  bool moves() const { return segments_ != 0; }
+  // The hierarchy that the ray goes through.
+  uint32_t root(uint32_t index, Moving& moving) {
+    const uint32_t object = instanced_ ? this->load(roots_, index) : 0;
+    if (!moves()) return object;
+    const layout::Moment moment =
+        layout::moment_of(layout::uintBitsToFloat(this->load(times_, index)), segments_);
+    moving = {uint64_t(push_.image_texels) * moment.segment, moment.fraction};
+    return object + push_.objects * moment.segment;
+  }
   layout::ObjectRecord load_object(uint32_t object) {
     const uint64_t first = 4 * uint64_t(object);
     return layout::object_record(this->load(objects_, first), this->load(objects_, first + 1),
@@ -65,21 +79,28 @@ class TraceKernel : public Kernel<Probe> {
     this->probe.step(boxes);
   }
 
-  void test_leaf(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Shear& shear,
-                 uint32_t next, float enter, layout::Hit& best) {
-    layout::intersect_quad(as_vec3(this->load(geometry_, texel)), as_vec3(this->load(geometry_, texel + 1)),
-                           as_vec3(this->load(geometry_, texel + stride)),
-                           as_vec3(this->load(geometry_, texel + stride + 1)), ray, shear, next, enter, texel,
-                           best);
+  glm::vec3 corner(uint32_t texel, const Moving& moving) {
+    const glm::vec3 point = as_vec3(this->load(geometry_, moving.image + texel));
+    if (!moves()) return point;
+    const glm::uvec4 next = this->load(geometry_, moving.image + push_.image_texels + texel);
+    return layout::moved3(point, as_vec3(next), moving.passed);
+  }
+
+  // Where the quad's own bound has said `enter`; unless it was that of a whole segment.
+  void test_leaf(uint32_t texel, uint32_t stride, const Moving& moving, const layout::Ray& ray,
+                 const layout::Slabs& slabs, const layout::Shear& shear, uint32_t next, float enter,
+                 layout::Hit& best) {
+    if (moves()) return test_quad(texel, stride, moving, ray, slabs, shear, next, best);
+    layout::intersect_quad(corner(texel, moving), corner(texel + 1, moving), corner(texel + stride, moving),
+                           corner(texel + stride + 1, moving), ray, shear, next, enter, texel, best);
     this->probe.triangles(2);
   }
 
-  // The same where the quad's own bound has not been asked yet.
-  void test_quad(uint32_t texel, uint32_t stride, const layout::Ray& ray, const layout::Slabs& slabs,
-                 const layout::Shear& shear, uint32_t next, layout::Hit& best) {
-    const glm::vec3 a = as_vec3(this->load(geometry_, texel)), b = as_vec3(this->load(geometry_, texel + 1)),
-                    c = as_vec3(this->load(geometry_, texel + stride)),
-                    d = as_vec3(this->load(geometry_, texel + stride + 1));
+  // Where it has not been asked yet.
+  void test_quad(uint32_t texel, uint32_t stride, const Moving& moving, const layout::Ray& ray,
+                 const layout::Slabs& slabs, const layout::Shear& shear, uint32_t next, layout::Hit& best) {
+    const glm::vec3 a = corner(texel, moving), b = corner(texel + 1, moving),
+                    c = corner(texel + stride, moving), d = corner(texel + stride + 1, moving);
     this->probe.triangles(2);
     const layout::Bound bound = layout::quad_bound(a, b, c, d);
     const float enter = layout::slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
@@ -96,9 +117,9 @@ class TraceKernel : public Kernel<Probe> {
 
  private:
   Quads objects_ = this->quads(objects_slot);
-  Words roots_ = this->words(objects_slot + 1);
+  Words roots_ = this->words(objects_slot + 1), times_ = this->words(objects_slot + 2);
   bool any_hit_ = this->constant(0) != 0, instanced_ = this->constant(2) != 0;
-  uint32_t visits_ = 0;
+  uint32_t segments_ = this->constant(3), visits_ = 0;
 };
 
 // Those of single nodes: the hierarchy in 32 bits.

@@ -13,7 +13,8 @@ class TraceOctant : public NodesKernel<Probe, 8> {
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
-    const layout::ObjectRecord object = this->load_object(this->root(index));
+    typename NodesKernel<Probe, 8>::Moving moving;
+    const layout::ObjectRecord object = this->load_object(this->root(index, moving));
     const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(object.first_node));
     const layout::Shear shear = layout::make_shear(ray);
     typename NodesKernel<Probe, 8>::State state;
@@ -32,7 +33,10 @@ class TraceOctant : public NodesKernel<Probe, 8> {
           walk = layout::walk_down(walk, (lo.w >> (2 * slabs.octant)) & 3u);
           continue;
         }
-        if (inside) this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, ray, shear, state.place.w, enter, best);
+        if (inside) {
+          this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, moving, ray, slabs, shear, state.place.w, enter,
+                          best);
+        }
         walk = layout::walk_on(walk);
         if (this->any_hit() && best.primitive != layout::no_index) walk.depth = layout::walk_done;
         if (walk.depth == layout::walk_done) break;

@@ -13,7 +13,8 @@ class TraceThreaded : public NodesKernel<Probe, 9> {
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
-    const uint32_t first_node = this->load_object(this->root(index)).first_node;
+    typename NodesKernel<Probe, 9>::Moving moving;
+    const uint32_t first_node = this->load_object(this->root(index, moving)).first_node;
     const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(first_node));
     const layout::Shear shear = layout::make_shear(ray);
     typename NodesKernel<Probe, 9>::State state;
@@ -29,7 +30,10 @@ class TraceThreaded : public NodesKernel<Probe, 9> {
         const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
         const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
         const bool at_leaf = inside && (hit & layout::leaf_flag) != 0;
-        if (at_leaf) this->test_leaf(hit & ~layout::leaf_flag, hi.w, ray, shear, state.place.w, enter, best);
+        if (at_leaf) {
+          this->test_leaf(hit & ~layout::leaf_flag, hi.w, moving, ray, slabs, shear, state.place.w, enter,
+                          best);
+        }
         link = inside && !at_leaf ? hit : miss;
         if (this->any_hit() && best.primitive != layout::no_index) link = 0;
         if (link == 0) break;

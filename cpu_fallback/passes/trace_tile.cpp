@@ -163,7 +163,7 @@ class TraceTile : public TraceKernel<Probe, 9> {
     for (uint32_t lane = 0; lane < tile_lanes; ++lane) {
       if (!group.active[lane]) continue;
       const layout::Ray& ray = group.rays[lane];
-      this->test_quad(texel, stride, ray, layout::make_slabs(ray, extents_[0]), layout::make_shear(ray),
+      this->test_quad(texel, stride, {}, ray, layout::make_slabs(ray, extents_[0]), layout::make_shear(ray),
                       layout::no_index, group.best[lane]);
     }
   }

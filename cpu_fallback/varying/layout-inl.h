@@ -15,6 +15,7 @@
 #include "lodestone/cpu_fallback/varying/numbers-inl.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/denoise.h"
+#include "lodestone/layout/motion.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray_state.h"
 #include "lodestone/layout/recursion.h"
@@ -30,6 +31,7 @@ using namespace layout;  // behind what is declared here
 #undef LODESTONE_LAYOUT_BSDF_H
 #undef LODESTONE_LAYOUT_CAMERA_H
 #undef LODESTONE_LAYOUT_DENOISE_H
+#undef LODESTONE_LAYOUT_MOTION_H
 #undef LODESTONE_LAYOUT_PATH_H
 #undef LODESTONE_LAYOUT_RAY_H
 #undef LODESTONE_LAYOUT_RAY_STATE_H
@@ -43,6 +45,7 @@ using namespace layout;  // behind what is declared here
 #include "lodestone/layout/bsdf.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/denoise.h"
+#include "lodestone/layout/motion.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray.h"
 #include "lodestone/layout/ray_state.h"

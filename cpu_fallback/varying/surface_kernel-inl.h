@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The buffers that layout/surface.h reads, slots 0 to 17 of `mask`, `shade`, `aov` and their like, and that
+// The buffers that layout/surface.h reads, slots 0 to 18 of `mask`, `shade`, `aov` and their like, and that
 // header itself. Included once a SIMD target.
 
 #if defined(LODESTONE_SURFACE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -73,7 +73,8 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Structs<FrameRecord> frames = this->template structs<FrameRecord>(15);
   Words hit_instances = this->words(16);
   Quads instances = this->quads(17);
-  uint32_t instanced = this->constant(4);
+  Words times = this->words(18);
+  uint32_t instanced = this->constant(4), segments = this->constant(5);
 
   static constexpr uint32_t sources = source_count, layered = is_layered ? 1 : 0;
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)
@@ -92,11 +93,17 @@ class SurfaceKernel : public VaryingKernel<Probe> {
     return select(this->active(), this->load(hit_instances, this->own_index()), 0u);
   }
 
+  // When.
+  HWY_ATTR Moment moment() {
+    if (segments == 0) return {0u, 0.0f};
+    return moment_of(uintBitsToFloat(this->load(times, this->own_index())), segments);
+  }
+
   // Of the active invocations' hits.
   HWY_ATTR SurfacePoint locate_hit(const uvec4& hit) {
     // Nothing absurd where nothing was hit: it would take the slow way of divisions.
     const uvec1 primitive = select(this->active(), hit.w, 0u);
-    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by());
+    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(), moment());
   }
 
   // Calls body(part, material) for each part that invocations have hit, with those active that have hit it.

@@ -5,11 +5,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
 
-QUADS(18, readonly, rays);
-QUADS(19, writeonly, contributions);
-QUADS(20, writeonly, shadow_rays);
-QUADS(21, restrict, radiance);
-COUNTERS(22)
+QUADS(19, readonly, rays);
+QUADS(20, writeonly, contributions);
+QUADS(21, writeonly, shadow_rays);
+QUADS(22, restrict, radiance);
+COUNTERS(23)
 PUSH(AmbientPush, push);
 
 void main() {
@@ -25,7 +25,7 @@ void main() {
   uvec4 contribution = uvec4(0u);
   Ray shadow = no_ray();
   if (hit.w != no_index) {
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+    SurfacePoint point = locate_hit(index, hit);
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);

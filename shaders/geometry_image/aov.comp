@@ -4,10 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
 
-QUADS(18, readonly, rays);
-WORDS(19, readonly, steps);
-QUADS(20, writeonly, aovs);
-COUNTERS(21)
+QUADS(19, readonly, rays);
+WORDS(20, readonly, steps);
+QUADS(21, writeonly, aovs);
+COUNTERS(22)
 PUSH(RayPush, push);
 
 void main() {
@@ -28,7 +28,7 @@ void main() {
   if (hit.w != no_index) {
     uvec4 along;
     LOAD4(along, rays, 2u * index + 1u);
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+    SurfacePoint point = locate_hit(index, hit);
     PartRecord part = parts[point.part];
     MaterialRecord material = materials[part.material];
     count_read(24u);

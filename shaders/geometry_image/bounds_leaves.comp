@@ -12,6 +12,19 @@ QUADS(2, writeonly, nodes_lo);
 QUADS(3, writeonly, nodes_hi);
 COUNTERS(4)
 PUSH(BoundsPush, push);
+layout(constant_id = 2) const uint moving = 0u;  // 1: bounds hold the quads of both images
+
+Bound bound_quad(uint texel, uint stride) {
+  uvec4 a;
+  uvec4 b;
+  uvec4 c;
+  uvec4 d;
+  LOAD4(a, geometry, texel);
+  LOAD4(b, geometry, texel + 1u);
+  LOAD4(c, geometry, texel + stride);
+  LOAD4(d, geometry, texel + stride + 1u);
+  return quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
+}
 
 Bound bound_leaf(uint slot) {
   Bound bound = empty_bound();
@@ -22,15 +35,8 @@ Bound bound_leaf(uint slot) {
     LOAD1(stride, leaf_map, 2u * (push.first_slot + slot) + 1u);
   }
   if (texel != empty_slot) {
-    uvec4 a;
-    uvec4 b;
-    uvec4 c;
-    uvec4 d;
-    LOAD4(a, geometry, texel);
-    LOAD4(b, geometry, texel + 1u);
-    LOAD4(c, geometry, texel + stride);
-    LOAD4(d, geometry, texel + stride + 1u);
-    bound = quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
+    bound = bound_quad(push.image + texel, stride);
+    if (moving != 0u) bound = join(bound, bound_quad(push.next_image + texel, stride));
   }
   if (slot < push.written) {
     uint address = push.first_node + level_base(push.depth) + slot;

@@ -12,10 +12,23 @@ STRUCTS(3, restrict, uint, extents);  // one an object: float bits, which order 
 WORDS(4, readonly, groups);          // of sixteen slots: those that boxes_blocks leaves
 COUNTERS(5)
 PUSH(BoxesPush, push);
+layout(constant_id = 2) const uint moving = 0u;  // 1: bounds hold the quads of both images
 
 #include "geometry_image/boxes.glsl"
 
 float reach = 0.0;  // the largest absolute coordinate of all bounds
+
+Bound bound_quad(uint texel, uint stride) {
+  uvec4 a;
+  uvec4 b;
+  uvec4 c;
+  uvec4 d;
+  LOAD4(a, geometry, texel);
+  LOAD4(b, geometry, texel + 1u);
+  LOAD4(c, geometry, texel + stride);
+  LOAD4(d, geometry, texel + stride + 1u);
+  return quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
+}
 
 Box bound_leaf(uint slot, vec3 per_step) {
   uint texel = empty_slot;
@@ -26,15 +39,8 @@ Box bound_leaf(uint slot, vec3 per_step) {
   }
   Box box = empty_box();
   if (texel != empty_slot) {
-    uvec4 a;
-    uvec4 b;
-    uvec4 c;
-    uvec4 d;
-    LOAD4(a, geometry, texel);
-    LOAD4(b, geometry, texel + 1u);
-    LOAD4(c, geometry, texel + stride);
-    LOAD4(d, geometry, texel + stride + 1u);
-    Bound bound = quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
+    Bound bound = bound_quad(push.image + texel, stride);
+    if (moving != 0u) bound = join(bound, bound_quad(push.next_image + texel, stride));
     reach = max2(reach, max2(largest_abs(bound.lo), largest_abs(bound.hi)));
     box = bound_box(bound.lo, bound.hi, push.grid, per_step);
   }

@@ -7,11 +7,11 @@
 #include "layout/path.h"
 #include "layout/recursion.h"
 
-QUADS(18, restrict, rays);
-QUADS(19, restrict, paths);
-QUADS(20, restrict, branches);  // three a ray that waits: its two, and a Branch
-STRUCTS(21, restrict, uint, going_on);
-COUNTERS(22)
+QUADS(19, restrict, rays);
+QUADS(20, restrict, paths);
+QUADS(21, restrict, branches);  // three a ray that waits: its two, and a Branch
+STRUCTS(22, restrict, uint, going_on);
+COUNTERS(23)
 PUSH(PathPush, push);
 
 layout(constant_id = 5) const uint recursion = recursion_specular;
@@ -34,7 +34,7 @@ void main() {
   }
   Ray next = no_ray();
   if (!(uintBitsToFloat(along.w) < 0.0) && hit.w != no_index && branch.depth < push.last_vertex) {
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+    SurfacePoint point = locate_hit(index, hit);
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);

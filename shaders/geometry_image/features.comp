@@ -6,9 +6,9 @@
 #include "geometry_image/surface.glsl"
 #include "layout/denoise.h"
 
-QUADS(18, readonly, rays);
-QUADS(19, restrict, features);
-COUNTERS(20)
+QUADS(19, readonly, rays);
+QUADS(20, restrict, features);
+COUNTERS(21)
 PUSH(FeaturesPush, push);
 
 void main() {
@@ -22,7 +22,7 @@ void main() {
   if (hit.w != no_index) {
     uvec4 along;
     LOAD4(along, rays, 2u * index + 1u);
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+    SurfacePoint point = locate_hit(index, hit);
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, as_vec3(along));

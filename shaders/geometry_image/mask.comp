@@ -5,14 +5,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "geometry_image/surface.glsl"
 
-QUADS(18, restrict, rays);
-QUADS(19, restrict, states);
-STRUCTS(20, restrict, uint, pending);
-COUNTERS(21)
+QUADS(19, restrict, rays);
+QUADS(20, restrict, states);
+STRUCTS(21, restrict, uint, pending);
+COUNTERS(22)
 PUSH(CountPush, push);
 
 bool is_cut_out(uint index, uvec4 hit) {
-  SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+  SurfacePoint point = locate_hit(index, hit);
   MaterialRecord material = materials[parts[point.part].material];
   count_read(24u);
   if (material.alpha_mask == 0u) return false;

@@ -5,17 +5,17 @@
 #include "geometry_image/surface.glsl"
 #include "layout/path.h"
 
-QUADS(18, restrict, rays);
-STRUCTS(19, readonly, LightRecord, lights);
-QUADS(20, writeonly, contributions);
-QUADS(21, writeonly, shadow_rays);
-QUADS(22, restrict, radiance);
-QUADS(23, restrict, paths);
-STRUCTS(24, restrict, uint, going_on);
-STRUCTS(25, readonly, EnvironmentRecord, environments);
-QUADS(26, readonly, environment_quads);
-WORDS(27, readonly, environment_cells);
-COUNTERS(28)
+QUADS(19, restrict, rays);
+STRUCTS(20, readonly, LightRecord, lights);
+QUADS(21, writeonly, contributions);
+QUADS(22, writeonly, shadow_rays);
+QUADS(23, restrict, radiance);
+QUADS(24, restrict, paths);
+STRUCTS(25, restrict, uint, going_on);
+STRUCTS(26, readonly, EnvironmentRecord, environments);
+QUADS(27, readonly, environment_quads);
+WORDS(28, readonly, environment_cells);
+COUNTERS(29)
 PUSH(PathPush, push);
 layout(constant_id = 4) const uint environment_map = 0u;
 
@@ -71,7 +71,7 @@ void main() {
     added = vec4(path.throughput * environment_radiance(direction) * sky_weight(path, density), 0.0);
   }
   if (alive && hit.w != no_index) {
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+    SurfacePoint point = locate_hit(index, hit);
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);

@@ -15,7 +15,7 @@ QUADS(3, readonly, normals);
 QUADS(4, writeonly, geometry);
 QUADS(5, writeonly, normal_map);
 COUNTERS(6)
-PUSH(RangePush, push);
+PUSH(RasterisePush, push);
 
 void main() {
   uint texel = invocation();
@@ -43,7 +43,7 @@ void main() {
     LOAD4(p2, normals, triangle.z);
     direction = as_bits(as_vec3(p0) * b0 + as_vec3(p1) * b1 + as_vec3(p2) * b2, 0u);
   }
-  STORE4(geometry, texel, point);
-  STORE4(normal_map, texel, direction);
+  STORE4(geometry, push.image + texel, point);
+  STORE4(normal_map, push.image + texel, direction);
   flush_counters();
 }

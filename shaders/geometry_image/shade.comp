@@ -6,16 +6,16 @@
 #include "geometry_image/surface.glsl"
 #include "layout/recursion.h"
 
-QUADS(18, readonly, rays);
-STRUCTS(19, readonly, LightRecord, lights);
-QUADS(20, writeonly, contributions);
-QUADS(21, writeonly, shadow_rays);
-QUADS(22, restrict, radiance);
-STRUCTS(23, readonly, EnvironmentRecord, environments);
-QUADS(24, readonly, environment_quads);
-WORDS(25, readonly, environment_cells);
-QUADS(26, readonly, paths);  // a Branch each, where `recursion` says so
-COUNTERS(27)
+QUADS(19, readonly, rays);
+STRUCTS(20, readonly, LightRecord, lights);
+QUADS(21, writeonly, contributions);
+QUADS(22, writeonly, shadow_rays);
+QUADS(23, restrict, radiance);
+STRUCTS(24, readonly, EnvironmentRecord, environments);
+QUADS(25, readonly, environment_quads);
+WORDS(26, readonly, environment_cells);
+QUADS(27, readonly, paths);  // a Branch each, where `recursion` says so
+COUNTERS(28)
 PUSH(RayPush, push);
 layout(constant_id = 4) const uint environment_map = 0u;
 layout(constant_id = 5) const uint recursion = recursion_none;
@@ -46,7 +46,7 @@ void main() {
   uvec4 shadow_from = uvec4(0u);
   uvec4 shadow_along = uvec4(0u, 0u, 0u, floatBitsToUint(-1.0));
   if (hit.w != no_index) {
-    SurfacePoint point = locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index));
+    SurfacePoint point = locate_hit(index, hit);
     MaterialRecord material = materials[parts[point.part].material];
     count_read(24u);
     Surface surface = surface_at(material, point, direction);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The buffers that surface.h reads: slots 0 to 17 of `mask`, `shade`, `aov` and their like.
+// The buffers that surface.h reads: slots 0 to 18 of `mask`, `shade`, `aov` and their like.
 #include "kernel.glsl"
 #include "layout/shading.h"
+#include "layout/motion.h"
 #include "layout/objects.h"
 
 QUADS(0, readonly, hits);
@@ -22,10 +23,12 @@ STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
 WORDS(16, readonly, hit_instances);
 QUADS(17, readonly, instances);
+WORDS(18, readonly, times);
 
 layout(constant_id = 2) const uint sources = 1u;
 layout(constant_id = 3) const uint layered = 0u;
 layout(constant_id = 6) const uint instanced = 0u;
+layout(constant_id = 7) const uint segments = 0u;
 
 #define WHERE(condition) if (condition)
 #define SET(variable, value) variable = value
@@ -36,4 +39,21 @@ uint placed_by(uint index) {
   uint instance = 0u;
   if (instanced != 0u) LOAD1(instance, hit_instances, index);
   return instance;
+}
+
+// When it has.
+Moment moment_at(uint index) {
+  Moment moment;
+  moment.segment = 0u;
+  moment.fraction = 0.0;
+  if (segments != 0u) {
+    uint time;
+    LOAD1(time, times, index);
+    moment = moment_of(uintBitsToFloat(time), segments);
+  }
+  return moment;
+}
+
+SurfacePoint locate_hit(uint index, uvec4 hit) {
+  return locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index), moment_at(index));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the traversals share: a ray, the object whose hierarchy it goes through, its hit, and its state from dispatch to
-// dispatch. Before this come their own buffers, `objects` and `roots` among them, push constants and counters.
+// dispatch. Before this come their own buffers, `objects`, `roots` and `times` among them, push constants and counters.
+#include "layout/motion.h"
 #include "layout/objects.h"
 
 QUADS(0, readonly, rays);  // two a ray: origin and tmin, direction and tmax
@@ -14,6 +15,8 @@ layout(constant_id = 2) const uint any_hit = 0u;  // 1: stop at the first hit fo
 layout(constant_id = 3) const uint write_steps = 0u;
 layout(constant_id = 4) const uint instanced = 0u;  // 1: of each ray, `roots` says which object; 0: all of the first
 
+layout(constant_id = 5) const uint segments = 0u;   // layout/motion.h; 0: nothing moves, else `times` says when
+
 uint node_visits = 0u;
 uint triangle_tests = 0u;
 uint subgroup_steps = 0u;
@@ -26,9 +29,25 @@ Ray load_ray(uint index) {
   return stored_ray(from, along);
 }
 
-ObjectRecord load_object(uint index) {
-  uint object = 0u;
-  if (instanced != 0u) LOAD1(object, roots, index);
+uint image = 0u;  // where the geometry image begins that is to be read, and how far it is to the next
+float passed = 0.0;
+
+// The hierarchy that a ray goes through; says too when quads are to be tested.
+uint load_root(uint index) {
+  uint root = 0u;
+  if (instanced != 0u) LOAD1(root, roots, index);
+  if (segments != 0u) {
+    uint bits;
+    LOAD1(bits, times, index);
+    Moment moment = moment_of(uintBitsToFloat(bits), segments);
+    image = push.image_texels * moment.segment;
+    passed = moment.fraction;
+    root += push.objects * moment.segment;
+  }
+  return root;
+}
+
+ObjectRecord load_object(uint object) {
   uvec4 a;
   uvec4 b;
   uvec4 c;
@@ -47,34 +66,42 @@ void count_step() {
   if (counting != 0u && subgroupElect()) subgroup_steps += gl_SubgroupSize;
 }
 
-void test_leaf(uint texel, uint stride, Ray ray, Shear shear, uint next, float enter, inout Hit best) {
-  uvec4 a;
-  uvec4 b;
-  uvec4 c;
-  uvec4 d;
-  LOAD4(a, geometry, texel);
-  LOAD4(b, geometry, texel + 1u);
-  LOAD4(c, geometry, texel + stride);
-  LOAD4(d, geometry, texel + stride + 1u);
-  intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, next, enter, texel, best);
+vec3 corner_at(uint texel) {
+  uvec4 bits;
+  LOAD4(bits, geometry, image + texel);
+  vec3 point = as_vec3(bits);
+  if (segments != 0u) {
+    LOAD4(bits, geometry, image + push.image_texels + texel);
+    point = moved3(point, as_vec3(bits), passed);
+  }
+  return point;
+}
+
+// Where the quad's own bound has not been asked yet.
+void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, inout Hit best) {
+  vec3 a = corner_at(texel);
+  vec3 b = corner_at(texel + 1u);
+  vec3 c = corner_at(texel + stride);
+  vec3 d = corner_at(texel + stride + 1u);
+  Bound bound = quad_bound(a, b, c, d);
+  float enter = slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
+  if (enter <= slab_exit(slabs, bound.lo, bound.hi, best.t)) {
+    intersect_quad(a, b, c, d, ray, shear, next, enter, texel, best);
+  }
   triangle_tests += 2u;
 }
 
-// The same where the quad's own bound has not been asked yet.
-void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, inout Hit best) {
-  uvec4 a;
-  uvec4 b;
-  uvec4 c;
-  uvec4 d;
-  LOAD4(a, geometry, texel);
-  LOAD4(b, geometry, texel + 1u);
-  LOAD4(c, geometry, texel + stride);
-  LOAD4(d, geometry, texel + stride + 1u);
-  Bound bound = quad_bound(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d));
-  float enter = slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
-  if (enter <= slab_exit(slabs, bound.lo, bound.hi, best.t)) {
-    intersect_quad(as_vec3(a), as_vec3(b), as_vec3(c), as_vec3(d), ray, shear, next, enter, texel, best);
+// Where it has, and said `enter`; unless it was that of a whole segment.
+void test_leaf(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, float enter, inout Hit best) {
+  if (segments != 0u) {
+    test_quad(texel, stride, ray, slabs, shear, next, best);
+    return;
   }
+  vec3 a = corner_at(texel);
+  vec3 b = corner_at(texel + 1u);
+  vec3 c = corner_at(texel + stride);
+  vec3 d = corner_at(texel + stride + 1u);
+  intersect_quad(a, b, c, d, ray, shear, next, enter, texel, best);
   triangle_tests += 2u;
 }
 

@@ -14,7 +14,8 @@ STRUCTS(8, readonly, float, extents);
 QUADS(9, restrict, trails);
 QUADS(10, readonly, objects);
 WORDS(11, readonly, roots);
-COUNTERS(12)
+WORDS(12, readonly, times);
+COUNTERS(13)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
@@ -24,9 +25,8 @@ void main() {
   if (index >= push.rays) return;
   boxes_a_step = 4u;
   Ray ray = load_ray(index);
-  ObjectRecord object = load_object(index);
-  uint root = 0u;
-  if (instanced != 0u) LOAD1(root, roots, index);
+  uint root = load_root(index);
+  ObjectRecord object = load_object(root);
   Slabs slabs = make_slabs(ray, extents[root]);
   Shear shear = make_shear(ray);
   BoxRay box_ray = make_box_ray(slabs, object_grid(object));

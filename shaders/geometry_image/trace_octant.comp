@@ -8,7 +8,8 @@
 
 QUADS(8, readonly, objects);
 WORDS(9, readonly, roots);
-COUNTERS(10)
+WORDS(10, readonly, times);
+COUNTERS(11)
 
 #include "geometry_image/trace_nodes.glsl"
 
@@ -16,7 +17,7 @@ void main() {
   uint index = invocation();
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
-  ObjectRecord object = load_object(index);
+  ObjectRecord object = load_object(load_root(index));
   Slabs slabs = make_slabs(ray, root_extent(object.first_node));
   Shear shear = make_shear(ray);
   Hit best;
@@ -61,7 +62,7 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, shear, state.w, enter, best);
+      test_leaf(texel, stride, ray, slabs, shear, state.w, enter, best);
       walk = walk_on(walk);
       if (any_hit != 0u && best.primitive != no_index) walk.depth = walk_done;
       budget -= 1u;

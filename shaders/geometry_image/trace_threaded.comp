@@ -8,7 +8,8 @@
 WORDS(8, readonly, links);
 QUADS(9, readonly, objects);
 WORDS(10, readonly, roots);
-COUNTERS(11)
+WORDS(11, readonly, times);
+COUNTERS(12)
 
 #include "geometry_image/trace_nodes.glsl"
 
@@ -16,7 +17,7 @@ void main() {
   uint index = invocation();
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
-  uint first_node = load_object(index).first_node;
+  uint first_node = load_object(load_root(index)).first_node;
   Slabs slabs = make_slabs(ray, root_extent(first_node));
   Shear shear = make_shear(ray);
   Hit best;
@@ -57,7 +58,7 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, shear, state.w, enter, best);
+      test_leaf(texel, stride, ray, slabs, shear, state.w, enter, best);
       link = any_hit != 0u && best.primitive != no_index ? 0u : miss;
       budget -= 1u;
       walking = link != 0u && budget != 0u;

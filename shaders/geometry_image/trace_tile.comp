@@ -16,7 +16,8 @@ QUADS(7, readonly, leaf_map);  // two slots a quad
 STRUCTS(8, readonly, float, extents);
 QUADS(9, readonly, objects);
 WORDS(10, readonly, roots);
-COUNTERS(11)
+WORDS(11, readonly, times);
+COUNTERS(12)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
@@ -188,7 +189,7 @@ uint first_waiting(uint found, Group group, uint number) {
 void main() {
   uint first = tile_rays * (invocation() / tile_lanes);
   if (first >= push.rays) return;
-  object = load_object(first);
+  object = load_object(0u);
 #define BEGIN(i) Group group##i = first_group(first + tile_lanes * uint(i));
   EACH_GROUP(BEGIN)
   uint lead = 0u;  // the first ray that waits

@@ -32,6 +32,8 @@ struct BoxesPush {
   uint first_slot;
   uint first_item;  // of its blocks, or groups
   uint object;
+  uint image;       // first texel of the geometry image, and ...
+  uint next_image;  // ... of the one behind, where something moves
 };
 
 CONST uint box_last_plane = 65535u;

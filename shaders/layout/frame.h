@@ -26,7 +26,8 @@ struct FrameRecord {
   vec3 lens_right;  // half axes of the lens; 0: a pinhole
   float focus;      // along `forward`: where what lies is sharp
   vec3 lens_up;
-  uint pad0;
+  uint segments;      // of the shutter (layout/motion.h); 0: it is open for an instant
+  uint image_texels;  // of one geometry image
 };
 
 CONST uint light_directional = 0u;
@@ -148,6 +149,7 @@ struct RayPush {
   uint first;        // 1: the pass starts a sum, 0: it adds to one
   uint vertex;       // surfaces that the longest of the batch's rays came by
   uint last_vertex;  // from which nothing goes on
+  uint instant;      // 1: in the middle of the time that the shutter is open, not anywhere in it
 };
 
 // Ambient occlusion of a batch.
@@ -186,9 +188,10 @@ struct CountPush {
   uint count;
 };
 
-struct RangePush {
+struct RasterisePush {
   uint first;
   uint count;
+  uint image;  // first texel of the geometry image to write
 };
 struct BoundsPush {
   uint depth;          // of the nodes that are read: the leaves, or a level above
@@ -198,6 +201,8 @@ struct BoundsPush {
   uint first_node;     // of the hierarchy
   uint first_slot;
   uint first_wide;
+  uint image;       // first texel of the geometry image, and ...
+  uint next_image;  // ... of the one behind, where something moves
 };
 
 FN uint tile_count(uint size) {

@@ -62,6 +62,7 @@ CONST uint pair_pixel = 0u;         // position in the pixel
 CONST uint pair_sky = 1u;           // direction to the sky; one a light
 CONST uint pair_lens = 0x8000u;     // position on the lens
 CONST uint pair_ambient = 0x8001u;  // direction of ambient occlusion
+CONST uint pair_time = 0x8002u;     // x: while the shutter is open
 CONST uint pair_vertex = 0x10000u;  // vertex k of a path has the pairs from pair_vertex + 4 k on:
 CONST uint of_lobe = 0u;            // x: lobe, y: Russian roulette
 CONST uint of_direction = 1u;

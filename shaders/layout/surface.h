@@ -2,10 +2,11 @@
 // From a hit to the surface there: which triangle of the input, where on it, which material, which normal.
 // Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
 // those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
-// in both. So do two numbers that are the same in the whole dispatch: `sources`, 3 where the atlas has mapped
+// in both. So do numbers that are the same in the whole dispatch: `sources`, 3 where the atlas has mapped
 // charts, else 1; `layered`, 1 where a material may reflect in another way than metallic-roughness says, be
-// transparent or coated (where that is 0 the Surface is a plain one whatever the material says); and
-// `instanced`, 1 where an instance puts what was hit into the world (layout/objects.h).
+// transparent or coated (where that is 0 the Surface is a plain one whatever the material says); `instanced`,
+// 1 where an instance puts what was hit into the world (layout/objects.h); and `segments`, not 0 where the
+// surface moves while the shutter is open (layout/motion.h).
 
 // A point of the input, and its share in what is found at a hit.
 struct SurfaceSource {
@@ -25,6 +26,7 @@ struct SurfacePoint {
   vec3 corner[3];           // their positions
   SurfaceSource source[3];  // those from `sources` on are not set
   uvec1 part;               // of the first source
+  Moment moment;            // at which it was hit; not set where nothing moves
   vec4 to_world[3];         // rows of the instance's matrix; not set without instances
   vec1 rounding;            // InstanceRecord::rounding
 };
@@ -83,8 +85,35 @@ FN void put_greater_first(INOUT(SurfaceSource) first, INOUT(SurfaceSource) secon
   second.share = select(swap, rest.z, second.share);
 }
 
-FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance) {
+// What an image says of a texel at a moment.
+FN vec3 geometry_at(uvec1 texel, IN(Moment) moment) {
+  uvec4 bits;
+  if (segments == 0u) {
+    LOAD4(bits, geometry, texel);
+    return as_vec3(bits);
+  }
+  uint texels = frames[0].image_texels;
+  uvec4 next;
+  LOAD4(bits, geometry, moment.segment * texels + texel);
+  LOAD4(next, geometry, (moment.segment + 1u) * texels + texel);
+  return moved3(as_vec3(bits), as_vec3(next), moment.fraction);
+}
+FN vec3 normal_at(uvec1 texel, IN(Moment) moment) {
+  uvec4 bits;
+  if (segments == 0u) {
+    LOAD4(bits, normal_map, texel);
+    return as_vec3(bits);
+  }
+  uint texels = frames[0].image_texels;
+  uvec4 next;
+  LOAD4(bits, normal_map, moment.segment * texels + texel);
+  LOAD4(next, normal_map, (moment.segment + 1u) * texels + texel);
+  return moved3(as_vec3(bits), as_vec3(next), moment.fraction);
+}
+
+FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Moment) moment) {
   SurfacePoint point;
+  point.moment = moment;
   uvec1 texel = primitive >> 1u;
   bvec1 first_half = (primitive & 1u) == 0u;
   uvec4 bits;
@@ -100,10 +129,7 @@ FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance) {
   point.weight[0] = 1.0f - u - v;
   point.weight[1] = u;
   point.weight[2] = v;
-  for (int i = 0; i < 3; ++i) {
-    LOAD4(bits, geometry, point.texel[i]);
-    point.corner[i] = as_vec3(bits);
-  }
+  for (int i = 0; i < 3; ++i) point.corner[i] = geometry_at(point.texel[i], moment);
   point.rounding = 1.0f;
   if (instanced != 0u) {
     for (int i = 0; i < 3; ++i) {
@@ -358,13 +384,10 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
   s.view = from_viewer * -1.0f;
   vec3 across = cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]);
   s.geometric = normalize_or(across, s.view);
-  uvec4 n0;
-  uvec4 n1;
-  uvec4 n2;
-  LOAD4(n0, normal_map, point.texel[0]);
-  LOAD4(n1, normal_map, point.texel[1]);
-  LOAD4(n2, normal_map, point.texel[2]);
-  s.normal = as_vec3(n0) * point.weight[0] + as_vec3(n1) * point.weight[1] + as_vec3(n2) * point.weight[2];
+  vec3 n0 = normal_at(point.texel[0], point.moment);
+  vec3 n1 = normal_at(point.texel[1], point.moment);
+  vec3 n2 = normal_at(point.texel[2], point.moment);
+  s.normal = n0 * point.weight[0] + n1 * point.weight[1] + n2 * point.weight[2];
   if (instanced != 0u) s.normal = placed_normal(point, s.normal);
   s.normal = normalize_or(s.normal, s.geometric);
   vec4 base = base_color_at(material, point, uvs);

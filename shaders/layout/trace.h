@@ -192,6 +192,8 @@ struct TracePush {
   uint resume;  // 0: all rays from the root; 1: those unfinished, from their states
   uint budget;  // steps of a ray in this dispatch. Mesa before 23 stops a subgroup silently after 65,535 loop
                 // iterations: with 8 lanes and two nested loops a budget of 4,000 can never reach that.
+  uint image_texels;  // where something moves (layout/motion.h): of a geometry image
+  uint objects;       // the same: hierarchies of a segment
 };
 
 LODESTONE_LAYOUT_END

@@ -13,6 +13,7 @@
 #include "lodestone/app/open_device.h"
 #include "lodestone/app/output_path.h"
 #include "lodestone/app/prepared_scene.h"
+#include "lodestone/app/shutter.h"
 #include "lodestone/app/thread_limit.h"
 #include "lodestone/base/error.h"
 #include "lodestone/base/file.h"
@@ -37,6 +38,8 @@ struct ParityOptions {
   FrameOptions frames;
   PictureOptions picture = small_picture();
   uint32_t relaxation_sweeps = 0;
+  ShutterOptions shutter;
+  uint32_t shutter_segments = 0;  // what that comes to
   DeviceOptions device;
   std::optional<render::Fault> fault;
   std::string log;
@@ -84,15 +87,20 @@ std::vector<std::string> pass_names(const std::vector<PassDifference>& differenc
 void render_frames(const ParityOptions& options, const PreparedScene& prepared, render::Backend& backend) {
   render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
+  settings.shutter_segments = options.shutter_segments;
   settings.aovs = aov_names();
   scene::Bounds bounds;
   if (prepared.needs_bounds(options.picture.camera)) bounds = prepared.bounds();
   render::Renderer renderer(backend, prepared.scene, prepared.assembly, prepared.atlas, settings);
   const FrameRange range = options.frames.range();
   for (uint32_t frame = range.first; frame <= range.last; ++frame) {
-    const scene::Pose pose = prepared.pose_at(prepared.wrap(options.frames.seconds(frame)));
+    const double seconds = prepared.wrap(options.frames.seconds(frame));
+    const scene::Pose pose = prepared.pose_at(seconds);
     const render::View view = view_of(prepared, pose, options.picture, bounds);
-    if (!renderer.render(pose, view, interrupted)) fail(ExitCode::interrupted, "parity", "interrupted");
+    if (!renderer.render(
+            pose, view, interrupted,
+            shutter_moments(options.shutter, prepared, options.picture, bounds, seconds, options.frames.fps)))
+      fail(ExitCode::interrupted, "parity", "interrupted");
   }
 }
 
@@ -159,6 +167,7 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
   add_relaxation_option(*command, options->scene, options->relaxation_sweeps);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);
+  add_shutter_options(*command, options->shutter);
   add_pose_options(*command, options->pose);
   add_device_options(*command, options->device);
   add_value(*command, "--fault", "PASS:BIT",
@@ -167,7 +176,12 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
   add_path(*command, "--log", "FILE", "Write the table to a file too", options->log);
   add_log_options(*command);
   command->footer("Example: lodestone parity Fox.glb --device gpu --frames 0-3");
-  command->callback([options, &run] { run = [options] { return run_parity(*options); }; });
+  command->callback([options, &run] {
+    run = [options] {
+      options->shutter_segments = shutter_segments(options->shutter, options->scene);
+      return run_parity(*options);
+    };
+  });
 }
 
 }  // namespace lodestone::app

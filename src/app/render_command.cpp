@@ -18,6 +18,7 @@
 #include "lodestone/app/open_device.h"
 #include "lodestone/app/output_path.h"
 #include "lodestone/app/prepared_scene.h"
+#include "lodestone/app/shutter.h"
 #include "lodestone/app/thread_limit.h"
 #include "lodestone/app/version.h"
 #include "lodestone/base/error.h"
@@ -37,6 +38,8 @@ struct RenderOptions {
   PoseOptions pose;
   FrameOptions frames;
   uint32_t relaxation_sweeps = 0;
+  ShutterOptions shutter;
+  uint32_t shutter_segments = 0;  // what that comes to
   PictureOptions picture;
   DeviceOptions device;
   std::vector<std::string> aovs;
@@ -93,6 +96,7 @@ OutputPattern check(const RenderOptions& options) {
 render::Settings settings_of(const RenderOptions& options) {
   render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
+  settings.shutter_segments = options.shutter_segments;
   settings.view = options.view;
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
@@ -189,6 +193,10 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"wall_ms", fmt::format("{}", frame.wall_ms)},  // the only ones that differ between two runs
       {"pass_ms", times.dump()},
   };
+  if (options_.shutter_segments > 0) {
+    text["shutter"] = fmt::format("{}", options_.shutter.open / options_.frames.fps);  // seconds
+    text["shutter_segments"] = std::to_string(options_.shutter_segments);
+  }
   if (options_.picture.denoise) text["denoise"] = render::denoise_description();
   if (const std::optional<scene::Environment>& environment = prepared_.scene.environment) {
     text["environment"] = environment->file;
@@ -213,10 +221,14 @@ bool RenderRun::render_frame(uint32_t frame) {
   measured.start_ms = now_ms();
   const scene::Pose pose = prepared_.pose_at(measured.time_s);
   const render::View view = view_of(prepared_, pose, options_.picture, bounds_);
-  std::optional<render::FrameResult> result = renderer_->render(pose, view, [this] {
+  const auto stop = [this] {
     progress_.tick();
     return interrupted();
-  });
+  };
+  std::optional<render::FrameResult> result =
+      renderer_->render(pose, view, stop,
+                        shutter_moments(options_.shutter, prepared_, options_.picture, bounds_,
+                                        measured.time_s, options_.frames.fps));
   if (!result) return false;
   measured.wall_ms = result->wall_ms;
   measured.dispatches = to_dispatches(result->passes, device_.origin_ms);
@@ -321,6 +333,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
   add_environment_options(*command, options->scene);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);
+  add_shutter_options(*command, options->shutter);
   add_pose_options(*command, options->pose);
   add_device_options(*command, options->device);
   add_report_options(*command, *options);
@@ -328,7 +341,12 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
   command->footer(
       "A clip loops: frame F shows the time F / fps, wrapped into the clip.\n"
       "Example: lodestone render Fox.glb -o fox.####.exr --frames 0-47 --clip Run --aov depth,normal");
-  command->callback([options, &run] { run = [options] { return RenderRun(*options).run(); }; });
+  command->callback([options, &run] {
+    run = [options] {
+      options->shutter_segments = shutter_segments(options->shutter, options->scene);
+      return RenderRun(*options).run();
+    };
+  });
 }
 
 }  // namespace lodestone::app

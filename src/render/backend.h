@@ -48,7 +48,7 @@ struct BufferDesc {
 
 // Specialization constants 0 (workgroup size) and 1 (count: 0 or 1) are set by the back end; `constants[i]`
 // is constant 2 + i of every kernel that declares it.
-inline constexpr uint32_t pass_constants = 5;
+inline constexpr uint32_t pass_constants = 6;
 
 struct Dispatch {
   const PassDecl* pass = nullptr;

@@ -49,7 +49,8 @@ constexpr Binding bounds_leaves_bindings[] = {
 
 constexpr Binding bounds_bindings[] = {{"nodes_lo", quad, read_write}, {"nodes_hi", quad, read_write}};
 
-constexpr Binding camera_bindings[] = {{"frame", structs, read}, {"rays", quad, write}};
+constexpr Binding camera_bindings[] = {
+    {"frame", structs, read}, {"rays", quad, write}, {"cameras", quad, read}, {"times", word, write}};
 
 #define RAY_BINDINGS                                                                                        \
   {"rays", quad, read}, {"geometry", quad, read}, {"hits", quad, read_write}, {"states", quad, read_write}, \
@@ -57,9 +58,9 @@ constexpr Binding camera_bindings[] = {{"frame", structs, read}, {"rays", quad, 
     "pending", structs, read_write                                                                          \
   }
 
-#define OBJECT_BINDINGS      \
-  {"objects", quad, read}, { \
-    "roots", word, read      \
+#define OBJECT_BINDINGS                             \
+  {"objects", quad, read}, {"roots", word, read}, { \
+    "times", word, read                             \
   }
 
 constexpr Binding trace_threaded_bindings[] = {
@@ -159,8 +160,8 @@ constexpr Binding wide_nodes_bindings[] = {
       {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
       {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                      \
       {"materials", structs, read}, {"textures", structs, read}, {"frame", structs, read},               \
-      {"hit_instances", word, read}, {                                                                   \
-    "instances", quad, read                                                                              \
+      {"hit_instances", word, read}, {"instances", quad, read}, {                                        \
+    "times", word, read                                                                                  \
   }
 
 #define ENVIRONMENT_BINDINGS                                            \
@@ -242,7 +243,7 @@ const PassDecl relax_begin{"relax", "geometry_image/relax_begin", relax_begin_bi
 const PassDecl relax_measure{"relax", "geometry_image/relax_measure", relax_measure_bindings,
                              sizeof(RelaxPush)};
 const PassDecl relax_move{"relax", "geometry_image/relax_move", relax_move_bindings, sizeof(RelaxPush)};
-const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bindings, sizeof(RangePush)};
+const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bindings, sizeof(RasterisePush)};
 const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings,
                              sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "lodestone/base/error.h"
+#include "lodestone/layout/camera.h"
 #include "lodestone/layout/tile.h"
 #include "lodestone/render/film.h"
 #include "lodestone/render/focus.h"
@@ -54,7 +56,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       settings(settings_in),
       tables(device, scene_in, assembly_in, atlas_in),
       environment(device, scene_in),
-      tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget),
+      tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget,
+              settings_in.shutter_segments),
       reach(scene_in),
       pose_box(scene_in) {
   check_aovs(settings.aovs);
@@ -64,8 +67,15 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   positions = Buffer(device, {"positions", vertices, 16});
   normals = Buffer(device, {"normals", vertices, 16});
   tangents = Buffer(device, {"tangents", vertices, 16});
-  geometry = Buffer(device, {"geometry", texels, 16});
-  normal_map = Buffer(device, {"normal_map", texels, 16});
+  const uint32_t segments = settings.shutter_segments;
+  const uint64_t images = segments + 1;
+  if (images * texels > std::numeric_limits<int32_t>::max()) {
+    fail(ExitCode::usage, "--shutter-segments", "{} geometry images of {} texels are too many; give fewer",
+         images, texels);
+  }
+  geometry = Buffer(device, {"geometry", images * texels, 16});
+  normal_map = Buffer(device, {"normal_map", images * texels, 16});
+  cameras = Buffer(device, {"cameras", layout::camera_quads * images, 16});
   frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
   const bool splits = settings.integrator == Integrator::specular, eye = !goes_on(settings.integrator);
   if (splits && settings.max_bounces > most_specular_bounces) {
@@ -77,9 +87,11 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   // Whole tiles, so that rays that are side by side in the picture stay so.
   batch_rays = waiting == 0 ? rays : std::min<uint64_t>(rays, most_branches / waiting / 64 * 64);
   const uint64_t pixels = uint64_t(settings.width) * settings.height;
-  if (assembly.objects.size() > 1 || assembly.objects.front().rigid)
+  if (assembly.objects.size() > 1 || assembly.objects.front().rigid) {
+    if (segments > 0) fail(ExitCode::usage, "--shutter", "is not for instances; give --instancing off");
     instances.emplace(device, assembly, settings.loop_budget);
-  primary = RayBuffers(device, "", batch_rays, instances.has_value());
+  }
+  primary = RayBuffers(device, "", batch_rays, instances.has_value(), segments > 0);
   shadow = RayBuffers(device, "shadow_", batch_rays, instances.has_value());
   contributions = Buffer(device, {"contributions", batch_rays, 16});
   radiance = Buffer(device, {"radiance", batch_rays, 16});
@@ -125,26 +137,49 @@ void Renderer::State::blend(const scene::Pose& pose, const Buffer& blended_posit
       layout::BlendPush{first, vertices, assembly.has_tangents ? 1u : 0u}, vertices);
 }
 
+// Of the blended vertices; the geometry image begins at texel `image`.
+void Renderer::State::rasterise(uint32_t first_texel, uint32_t image) {
+  const uint32_t texels = static_cast<uint32_t>(atlas.texel_map.size()) - first_texel;
+  if (texels == 0) return;
+  run(passes::rasterise,
+      {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
+      layout::RasterisePush{first_texel, texels, image}, texels);
+}
+
 // blend, relax, rasterise, bounds: everything that follows from the pose.
-void Renderer::State::update(const scene::Pose& pose) {
+void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter) {
   blend(pose, positions);
   if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
+  if (settings.shutter_segments > 0) return update_moving(pose, shutter);
   size_t first = 0;  // object to be made anew
   uint32_t first_texel = 0;
   while (rigid_done && first < assembly.objects.size() && assembly.objects[first].rigid) {
     first_texel = atlas.objects[first].first_texel + atlas.objects[first].texels;
     ++first;
   }
-  const uint32_t texels = static_cast<uint32_t>(atlas.texel_map.size()) - first_texel;
-  if (texels > 0) {
-    run(passes::rasterise,
-        {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
-        layout::RangePush{first_texel, texels}, texels);
-  }
+  rasterise(first_texel, 0);
   const std::vector<scene::Bounds> boxes = object_boxes(pose);
   tracing.build(geometry, boxes, first);
   if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, tracing.objects());
   rigid_done = true;
+}
+
+// A geometry image a moment, and a hierarchy for each two of them.
+void Renderer::State::update_moving(const scene::Pose& pose, const std::vector<Moment>& shutter) {
+  std::vector<scene::Bounds> ends, boxes;
+  for (uint32_t i = 0; i < shutter.size(); ++i) {
+    blend(shutter[i].pose, positions);
+    rasterise(0, i * static_cast<uint32_t>(atlas.texel_map.size()));
+    const std::vector<scene::Bounds> end = object_boxes(shutter[i].pose);
+    ends.insert(ends.end(), end.begin(), end.end());
+  }
+  const size_t objects = assembly.objects.size();
+  for (size_t i = 0; i + objects < ends.size(); ++i) {
+    boxes.push_back(ends[i]);
+    boxes.back().include(ends[i + objects]);
+  }
+  blend(pose, positions);  // what shading looks up itself
+  tracing.build(geometry, boxes, 0);
 }
 
 // Round each object in its space.
@@ -161,8 +196,9 @@ std::vector<scene::Bounds> Renderer::State::object_boxes(const scene::Pose& pose
   return boxes;
 }
 
-bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query,
+bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, TraceQuery query,
                             const Interrupted& interrupted) {
+  query.times = &times_of(rays);
   if (instances) return instances->trace(tracing, geometry, rays, count, query, interrupted);
   return tracing.trace(geometry, rays, count, query, interrupted);
 }
@@ -171,7 +207,10 @@ bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, const TraceQ
 float Renderer::State::find_focus(const View& view) {
   const std::vector<glm::vec4> rays = focus_rays(view);
   const auto count = static_cast<uint32_t>(rays.size() / 2);
-  const RayBuffers probes(backend, "focus_", count, instances.has_value());
+  const bool moves = settings.shutter_segments > 0;
+  const RayBuffers probes(backend, "focus_", count, instances.has_value(), moves);
+  const std::vector<float> middle(moves ? count : 0, 0.5f);
+  if (moves) backend.upload(probes.times.id(), std::as_bytes(std::span(middle)));
   backend.upload(probes.rays.id(), std::as_bytes(std::span(rays)));
   trace(probes, count, {}, {});
   std::vector<glm::uvec4> hits(count);
@@ -179,7 +218,8 @@ float Renderer::State::find_focus(const View& view) {
   return focus_of(view, rays, hits);
 }
 
-void Renderer::State::begin_frame(const scene::Pose& pose, const View& view) {
+void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
+                                  const std::vector<Moment>& shutter) {
   scene::Sky sky;
   const auto records = frame_lights(scene, pose, view, sky);
   light_count = static_cast<uint32_t>(records.size());
@@ -207,7 +247,23 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view) {
     record.lens_right = glm::normalize(view.right) * radius;
     record.lens_up = glm::normalize(view.up) * radius;
   }
+  record.segments = settings.shutter_segments;
+  record.image_texels = static_cast<uint32_t>(atlas.texel_map.size());
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
+  if (record.segments > 0) upload_cameras(record, shutter);
+}
+
+// As layout/camera.h reads them. The lens stays as large as it is in the frame's middle.
+void Renderer::State::upload_cameras(const layout::FrameRecord& record, const std::vector<Moment>& shutter) {
+  const float radius = glm::length(record.lens_right);
+  std::vector<glm::vec4> quads;
+  for (const Moment& moment : shutter) {
+    const View& view = moment.view;
+    for (const glm::vec3& axis : {view.origin, view.right, view.up, view.forward,
+                                  glm::normalize(view.right) * radius, glm::normalize(view.up) * radius})
+      quads.emplace_back(axis, 0.0f);
+  }
+  backend.upload(cameras.id(), std::as_bytes(std::span(quads)));
 }
 
 // All rays to their end. Where materials cut out texels, hits on those are passed through until none is left;
@@ -227,13 +283,21 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, Trace
   return false;
 }
 
+void Renderer::State::run_camera(const layout::RayPush& push) {
+  // Where nothing moves no time is written.
+  run(passes::camera,
+      {frame.id(), primary.rays.id(), cameras.id(),
+       settings.shutter_segments > 0 ? primary.times.id() : primary.steps.id()},
+      push, push.rays);
+}
+
 // All samples of a run of pixels. False: interrupted.
 bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted) {
   if (!settings.aovs.empty()) {
     const bool wants_steps =
         std::find(settings.aovs.begin(), settings.aovs.end(), "steps") != settings.aovs.end();
-    const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1, 0, 0};
-    run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
+    const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1, 0, 0, 1};
+    run_camera(push);
     if (!trace_masked(primary, count, {.steps = wants_steps, .common_origin = true}, interrupted))
       return false;
     run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
@@ -248,8 +312,9 @@ bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Int
                                0,
                                sample == 0 ? 1u : 0u,
                                0,
-                               settings.max_bounces};
-    run(passes::camera, {frame.id(), primary.rays.id()}, push, count);
+                               settings.max_bounces,
+                               0};
+    run_camera(push);
     if (!trace_masked(primary, count, {.common_origin = !has_lens()}, interrupted)) return false;
     if (denoiser)
       denoiser->add_features(surface_buffers(primary, {primary.rays.id()}), plain_constants(), count,
@@ -270,11 +335,12 @@ Renderer::Renderer(Backend& backend, const scene::Scene& scene, const scene::Ass
 Renderer::~Renderer() = default;
 
 std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View& view,
-                                            const std::function<bool()>& interrupted) {
+                                            const std::function<bool()>& interrupted,
+                                            const std::vector<Moment>& shutter) {
   State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
-  s.update(pose);
-  s.begin_frame(pose, view);
+  s.update(pose, shutter);
+  s.begin_frame(pose, view, shutter);
   const uint32_t total = s.total_rays();
   for (uint32_t first = 0; first < total; first += s.batch_rays) {
     if (!s.render_batch(first, std::min(s.batch_rays, total - first), interrupted)) {
@@ -312,7 +378,7 @@ Traversal Renderer::traversal() const {
   return state_->tracing.traversal();
 }
 void Renderer::update(const scene::Pose& pose) {
-  state_->update(pose);
+  state_->update(pose, {});
 }
 
 std::vector<glm::uvec4> Renderer::texel_map() {

@@ -51,6 +51,9 @@ struct Settings {
   // Of the texels of mapped charts, every frame, before the hierarchy is built: they go where the pose
   // stretches the surface. Other charts stay as they are.
   uint32_t relaxation_sweeps = 0;
+  // Motion blur: the equal stretches of the time that the shutter is open in which everything moves along
+  // straight lines (layout/motion.h), at most most_segments; 0: it is open for an instant.
+  uint32_t shutter_segments = 0;
 };
 
 // A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y
@@ -66,6 +69,12 @@ struct View {
 View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
                const scene::Bounds& bounds, uint32_t width, uint32_t height);
 
+// What the shutter sees at a time.
+struct Moment {
+  scene::Pose pose;
+  View view;
+};
+
 struct FrameResult {
   image::Image linear;   // R G B A and the AOVs, under their EXR channel names
   image::Image display;  // R G B after exposure, view transform and sRGB encoding; the sky behind everything
@@ -77,21 +86,25 @@ struct FrameResult {
 class Renderer {
  public:
   // Uploads everything static and runs `links`. The scene, assembly and atlas must outlive the renderer.
-  // Throws Error(usage) where sweeps are wanted of mapped charts whose maps the atlas does not have.
+  // Throws Error(usage) where sweeps are wanted of mapped charts whose maps the atlas does not have, and
+  // where something is to move of which the assembly has instances.
   Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
            const geometry_image::Atlas& atlas, const Settings& settings);
   ~Renderer();
 
-  // One frame. `interrupted` is asked between batches; where it says yes, nothing is returned.
+  // One frame. `interrupted` is asked between batches; where it says yes, nothing is returned. `shutter`:
+  // with motion blur, the moments at the ends of its segments, from the opening to the closing; lights and
+  // tangents are those of `pose`, in between.
   std::optional<FrameResult> render(const scene::Pose& pose, const View& view,
-                                    const std::function<bool()>& interrupted = {});
+                                    const std::function<bool()>& interrupted = {},
+                                    const std::vector<Moment>& shutter = {});
 
   std::vector<PassRecord> setup_passes() const;  // the records of `links`
   Traversal traversal() const;                   // what `automatic` became
 
   // The pieces of a frame, for benchmarks: blend, relax, rasterise and bounds, and the texel map that they
-  // were for; then given rays (two vec4 each:
-  // origin and tmin, direction and tmax) against the hierarchy, closest hit, results t u v primitive.
+  // were for; then given rays (two vec4 each: origin and tmin, direction and tmax) against the hierarchy,
+  // closest hit, results t u v primitive. Without motion blur.
   void update(const scene::Pose& pose);
   std::vector<glm::uvec4> texel_map();
   void load_rays(const std::vector<glm::vec4>& rays);

@@ -39,7 +39,7 @@ struct Renderer::State {
 
   // Rewritten every frame.
   Buffer weights, matrices, positions, normals, tangents, geometry, normal_map;
-  Buffer frame, lights;
+  Buffer frame, lights, cameras;
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
   bool loaded_together = false;  // see TraceQuery::common_origin
@@ -67,19 +67,26 @@ struct Renderer::State {
         tables.charts.id(), tables.parts.id(), tables.materials.id(), tables.textures.id(), frame.id(),
         // Without instances nothing reads them; any words and quads will do.
         instances ? rays.instances.id() : rays.steps.id(),
-        instances ? instances->records().id() : geometry.id()};
+        instances ? instances->records().id() : geometry.id(),
+        settings.shutter_segments > 0 ? times_of(rays).id() : rays.steps.id()};
     ids.insert(ids.end(), more);
     return ids;
   }
 
   // Of the passes that read them.
   std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none) const {
-    return {tables.sources, tables.layered, environment.map, recursion, instances ? 1u : 0u};
+    return {tables.sources, tables.layered,      environment.map,
+            recursion,      instances ? 1u : 0u, settings.shutter_segments};
   }
 
   // Of those that take every surface for a plain one.
   std::array<uint32_t, pass_constants> plain_constants() const {
-    return {tables.sources, 0, 0, 0, instances ? 1u : 0u};
+    return {tables.sources, 0, 0, 0, instances ? 1u : 0u, settings.shutter_segments};
+  }
+
+  // A shadow ray's time is that of the ray it comes from.
+  const Buffer& times_of(const RayBuffers& rays) const {
+    return &rays == &shadow ? primary.times : rays.times;
   }
 
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
@@ -89,12 +96,16 @@ struct Renderer::State {
 
   void prepare_relaxation();
   void blend(const scene::Pose& pose, const Buffer& blended_positions);
-  void update(const scene::Pose& pose);
+  void rasterise(uint32_t first_texel, uint32_t image);
+  void update(const scene::Pose& pose, const std::vector<Moment>& shutter);
+  void update_moving(const scene::Pose& pose, const std::vector<Moment>& shutter);
   float find_focus(const View& view);
-  void begin_frame(const scene::Pose& pose, const View& view);
+  void begin_frame(const scene::Pose& pose, const View& view, const std::vector<Moment>& shutter);
+  void upload_cameras(const layout::FrameRecord& record, const std::vector<Moment>& shutter);
   std::vector<scene::Bounds> object_boxes(const scene::Pose& pose) const;
-  bool trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query, const Interrupted& interrupted);
+  bool trace(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
   bool trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
+  void run_camera(const layout::RayPush& push);
   bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
 
   // integrators.cpp: one sample of a batch whose rays have found what they hit. False: interrupted.

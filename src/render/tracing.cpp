@@ -2,6 +2,7 @@
 #include "lodestone/render/tracing.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "lodestone/base/error.h"
 #include "lodestone/layout/frame.h"
@@ -15,7 +16,8 @@
 namespace lodestone::render {
 namespace {
 
-Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool several_objects) {
+// `one_tree`: for all rays.
+Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_tree) {
   const bool shuffles =
       std::find(device.lacks.begin(), device.lacks.end(), "subgroup shuffles") == device.lacks.end();
   const bool tiles = device.subgroup_size == layout::tile_lanes && shuffles;
@@ -25,18 +27,21 @@ Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool seve
          device.name);
   }
   if (wanted == Traversal::automatic) wanted = tiles ? Traversal::tile : Traversal::wide;
-  return wanted == Traversal::tile && several_objects ? Traversal::wide : wanted;
+  return wanted == Traversal::tile && !one_tree ? Traversal::wide : wanted;
 }
 
 }  // namespace
 
 Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map,
-                 Traversal traversal, uint32_t loop_budget)
+                 Traversal traversal, uint32_t loop_budget, uint32_t segments)
     : backend_(backend),
       leaf_map_(leaf_map),
       on_cpu_(backend.info().kind == "cpu"),
-      traversal_(choose_traversal(backend.info(), traversal, atlas.objects.size() > 1)),
+      traversal_(choose_traversal(backend.info(), traversal, atlas.objects.size() == 1 && segments == 0)),
       loop_budget_(loop_budget),
+      segments_(segments),
+      objects_a_segment_(static_cast<uint32_t>(atlas.objects.size())),
+      image_texels_(static_cast<uint32_t>(atlas.texel_map.size())),
       pending_(backend, {"pending", 1, 4}) {
   place_trees(atlas);
   records_.resize(trees_.size());
@@ -60,18 +65,14 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
 void Tracing::place_trees(const geometry_image::Atlas& atlas) {
   LeafBlocks all;
   for (const geometry_image::AtlasObject& object : atlas.objects) {
-    const HierarchyLevels levels(object.depth, object.slots);
-    Tree tree{levels,
-              static_cast<uint32_t>(node_count_),
-              object.first_slot,
-              static_cast<uint32_t>(wide_count_),
-              0,
-              0,
-              0,
-              0};
+    Tree tree{HierarchyLevels(object.depth, object.slots), 0, object.first_slot, 0, 0, 0, 0, 0};
     if (uses_boxes()) {
-      const LeafBlocks found =
-          find_leaf_blocks(std::span(atlas.leaf_map).subspan(object.first_slot, object.slots), levels);
+      LeafBlocks found =
+          find_leaf_blocks(std::span(atlas.leaf_map).subspan(object.first_slot, object.slots), tree.levels);
+      if (segments_ > 0) {  // boxes_blocks bounds quads of one image
+        for (const glm::uvec4& block : found.blocks) found.others.push_back(block.x);
+        found.blocks.clear();
+      }
       tree.first_block = static_cast<uint32_t>(all.blocks.size());
       tree.blocks = static_cast<uint32_t>(found.blocks.size());
       tree.first_group = static_cast<uint32_t>(all.others.size());
@@ -79,9 +80,15 @@ void Tracing::place_trees(const geometry_image::Atlas& atlas) {
       all.blocks.insert(all.blocks.end(), found.blocks.begin(), found.blocks.end());
       all.others.insert(all.others.end(), found.others.begin(), found.others.end());
     }
-    node_count_ += uses_boxes() ? box_records(levels) : levels.nodes();
-    wide_count_ += WideLevels(object.depth, object.slots).end();
     trees_.push_back(tree);
+  }
+  for (uint32_t segment = 1; segment < segments_; ++segment)
+    std::copy_n(trees_.begin(), objects_a_segment_, std::back_inserter(trees_));
+  for (Tree& tree : trees_) {
+    tree.first_node = static_cast<uint32_t>(node_count_);
+    tree.first_wide = static_cast<uint32_t>(wide_count_);
+    node_count_ += uses_boxes() ? box_records(tree.levels) : tree.levels.nodes();
+    wide_count_ += WideLevels(tree.levels.depth(), tree.levels.slots()).end();
   }
   leaf_blocks_ = make_buffer(backend_, "leaf_blocks", 16, all.blocks);
   leaf_groups_ = make_buffer(backend_, "leaf_groups", 4, all.others);
@@ -125,21 +132,24 @@ void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& bo
     if (uses_boxes()) {
       build_boxes(geometry, i);
     } else {
-      build_nodes(geometry, trees_[i]);
+      build_nodes(geometry, i);
     }
   }
 }
 
-void Tracing::build_nodes(const Buffer& geometry, const Tree& tree) {
+void Tracing::build_nodes(const Buffer& geometry, size_t object) {
+  const Tree& tree = trees_[object];
   const HierarchyLevels& levels = tree.levels;
+  const uint32_t image = first_texel(object);
   const uint32_t depth = levels.depth();
   const auto push_of = [&](uint32_t level, uint32_t count, uint32_t written, uint32_t written_above) {
-    return layout::BoundsPush{level,           count,           written,        written_above,
-                              tree.first_node, tree.first_slot, tree.first_wide};
+    return layout::BoundsPush{level,           count,           written,
+                              written_above,   tree.first_node, tree.first_slot,
+                              tree.first_wide, image,           image + image_texels_};
   };
   run(passes::bounds_leaves, {leaf_map_.id(), geometry.id(), nodes_lo_.id(), nodes_hi_.id()},
       push_of(depth, levels.slots(), levels.places(depth), levels.places(depth - 1)),
-      levels.places(depth - 1));
+      levels.places(depth - 1), {segments_ > 0 ? 1u : 0u});
   for (uint32_t level = depth - 1; level > 0;) {
     const bool two = level >= 2;
     const layout::BoundsPush push =
@@ -156,14 +166,23 @@ void Tracing::build_nodes(const Buffer& geometry, const Tree& tree) {
 
 void Tracing::build_boxes(const Buffer& geometry, size_t object) {
   const Tree& tree = trees_[object];
+  const uint32_t image = first_texel(object);
   const layout::BoxGrid grid = layout::object_grid(records_[object]);
   // Two levels a dispatch; level `depth` are the quads.
   const uint32_t depth = tree.levels.depth();
   const auto written = [&](uint32_t level) { return level > 0 ? tree.levels.places(level - 1) : 0; };
   const auto push_of = [&](uint32_t level, uint32_t count, uint32_t above, uint32_t first_item) {
-    return layout::BoxesPush{level,           count,      written(level),
-                             above,           grid,       tree.first_node,
-                             tree.first_slot, first_item, static_cast<uint32_t>(object)};
+    return layout::BoxesPush{level,
+                             count,
+                             written(level),
+                             above,
+                             grid,
+                             tree.first_node,
+                             tree.first_slot,
+                             first_item,
+                             static_cast<uint32_t>(object),
+                             image,
+                             image + image_texels_};
   };
   if (tree.blocks > 0) {
     run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id(), extents_.id()},
@@ -172,7 +191,7 @@ void Tracing::build_boxes(const Buffer& geometry, size_t object) {
   if (tree.groups > 0 || depth == 1) {
     run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extents_.id(), leaf_groups_.id()},
         push_of(depth, tree.levels.slots(), tree.groups, tree.first_group),
-        depth == 1 ? written(depth) : tree.groups);
+        depth == 1 ? written(depth) : tree.groups, {segments_ > 0 ? 1u : 0u});
   }
   for (uint32_t level = depth - 2; depth > 2 && level > 0;) {
     const bool two = level >= 2;
@@ -198,11 +217,11 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
                                    rays.states.id(), rays.steps.id(), pending_.id()};
   const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u,
-                                                       roots != nullptr ? 1u : 0u};
-  layout::TracePush push{count, resume ? 1u : 0u, loop_budget_};
-  // Without roots nothing reads them; any words will do.
-  const std::array<BufferId, 2> of_objects = {objects_.id(),
-                                              roots != nullptr ? roots->id() : rays.steps.id()};
+                                                       roots != nullptr ? 1u : 0u, segments_};
+  layout::TracePush push{count, resume ? 1u : 0u, loop_budget_, image_texels_, objects_a_segment_};
+  // Without roots or times nothing reads them; any words will do.
+  const std::array<BufferId, 3> of_objects = {objects_.id(), roots != nullptr ? roots->id() : rays.steps.id(),
+                                              segments_ > 0 ? query.times->id() : rays.steps.id()};
   if (uses_boxes()) {
     buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extents_.id(), rays.trails.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
@@ -230,8 +249,8 @@ void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uin
   const uint32_t tiles = (count + layout::tile_rays - 1) / layout::tile_rays;
   run(passes::trace_tile,
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
-       boxes_.id(), leaf_map_.id(), extents_.id(), objects_.id(), rays.steps.id()},
-      layout::TracePush{count, 0, loop_budget_}, tiles * layout::tile_lanes);
+       boxes_.id(), leaf_map_.id(), extents_.id(), objects_.id(), rays.steps.id(), rays.steps.id()},
+      layout::TracePush{count, 0, loop_budget_, 0, 0}, tiles * layout::tile_lanes);
 }
 
 bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,

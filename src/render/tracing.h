@@ -22,39 +22,44 @@ using Interrupted = std::function<bool()>;
 // found.
 struct RayBuffers {
   RayBuffers() = default;
-  // `placed`: for rays through instances.
-  RayBuffers(Backend& backend, const std::string& prefix, uint64_t count, bool placed = false)
+  // `placed`: for rays through instances; `timed`: for rays through what moves.
+  RayBuffers(Backend& backend, const std::string& prefix, uint64_t count, bool placed = false,
+             bool timed = false)
       : rays(backend, {prefix + "rays", 2 * count, 16}),
         hits(backend, {prefix + "hits", count, 16}),
         states(backend, {prefix + "states", count, 16}),
         trails(backend, {prefix + "trails", count, 16}),
         steps(backend, {prefix + "steps", count, 4}),
         instances(backend, {prefix + "instances", placed ? count : 0, 4}),
-        places(backend, {prefix + "places", placed ? count : 0, 16}) {}
+        places(backend, {prefix + "places", placed ? count : 0, 16}),
+        times(backend, {prefix + "times", timed ? count : 0, 4}) {}
   Buffer rays, hits, states, trails, steps;
   Buffer instances, places;
+  Buffer times;  // while the shutter is open, in [0, 1]
 };
 
 // What is asked of a run of rays.
 struct TraceQuery {
-  bool any_hit = false;        // stop at the first hit found; hits say only whether there is one
-  bool steps = false;          // count the nodes visited by each ray
-  bool shadow = false;         // statistics call it `occlude`
-  bool common_origin = false;  // runs of 64 rays start from one point and go nearly the same way
-  bool restarted = false;      // only those that `mask` has sent on
+  bool any_hit = false;           // stop at the first hit found; hits say only whether there is one
+  bool steps = false;             // count the nodes visited by each ray
+  bool shadow = false;            // statistics call it `occlude`
+  bool common_origin = false;     // runs of 64 rays start from one point and go nearly the same way
+  bool restarted = false;         // only those that `mask` has sent on
+  const Buffer* times = nullptr;  // of the rays, where something moves
 };
 
 class Tracing {
  public:
-  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it. With several objects
-  // `tile` becomes `wide`. Throws Error(usage) where the device cannot run that traversal.
+  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it. With several objects,
+  // and with `segments` of motion (layout/motion.h; 0: nothing moves), `tile` becomes `wide`. Throws
+  // Error(usage) where the device cannot run that traversal.
   Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map, Traversal traversal,
-          uint32_t loop_budget);
+          uint32_t loop_budget, uint32_t segments);
 
   Traversal traversal() const { return traversal_; }  // what `automatic` became
 
   // Of the objects from `first` on: the bounds of all quads, and of the nodes above them. `boxes`: one an
-  // object, round all of its surface.
+  // object, round all of its surface; of each segment, where there are any, one after the other.
   void build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes, size_t first);
 
   // The first `count` rays to their end, in as many dispatches as the budget of each needs. `roots`: a word a
@@ -80,8 +85,12 @@ class Tracing {
   };
   void place_trees(const geometry_image::Atlas& atlas);
   void build_links(const Tree& tree);
-  void build_nodes(const Buffer& geometry, const Tree& tree);
+  void build_nodes(const Buffer& geometry, size_t object);
   void build_boxes(const Buffer& geometry, size_t object);
+  // Of the geometry image at whose time the segment of hierarchy `object` begins.
+  uint32_t first_texel(size_t object) const {
+    return image_texels_ * static_cast<uint32_t>(object / objects_a_segment_);
+  }
   bool uses_boxes() const {
     return traversal_ == Traversal::tile || (traversal_ == Traversal::wide && !on_cpu_);
   }
@@ -94,7 +103,8 @@ class Tracing {
   bool on_cpu_;
   Traversal traversal_;
   uint32_t loop_budget_;
-  std::vector<Tree> trees_;  // one an object
+  uint32_t segments_, objects_a_segment_, image_texels_;
+  std::vector<Tree> trees_;  // one an object, of each segment
   uint64_t node_count_ = 0, wide_count_ = 0;
   std::vector<layout::ObjectRecord> records_;
   Buffer objects_;                                   // the same on the device
