@@ -45,7 +45,7 @@ class Layers : public SurfaceKernel<Probe, source_count, is_layered> {
   }
 
  private:
-  Quads rays_ = this->quads(18), layers_ = this->quads(19);
+  Quads rays_ = this->quads(19), layers_ = this->quads(20);
 };
 
 LODESTONE_LAYERED_SURFACE_BLOCK_FUNCTION(layers, Layers)
@@ -83,7 +83,7 @@ class KeepingBackend final : public render::Backend {
       sources = dispatch.constants[0];
       invocations = dispatch.invocations;
       buffers.clear();
-      for (size_t i = 0; i <= 18; ++i) {
+      for (size_t i = 0; i <= 19; ++i) {
         const render::BufferDesc& desc = inner_->desc(dispatch.buffers[i]);
         std::vector<uint32_t>& words = buffers.emplace_back(desc.elements * desc.element_bytes / 4);
         inner_->download(dispatch.buffers[i], std::as_writable_bytes(std::span(words)), 0);
