@@ -204,7 +204,7 @@ int run_bench(const BenchOptions& options) {
   const PreparedScene prepared = prepare_scene(options.scene, options.pose);
   const scene::Pose pose = prepared.pose_at(prepared.wrap(options.time));
   scene::Bounds bounds;
-  if (prepared.needs_bounds(options.picture.camera)) bounds = prepared.bounds();
+  if (options.picture.camera.needs_bounds(prepared.scene)) bounds = prepared.bounds();
   const Rays primary = primary_rays(view_of(prepared, pose, options.picture, bounds), options.picture.size);
   const Rays incoherent = incoherent_rays(prepared, pose, uint32_t(primary.size() / 2), options.picture.seed);
   std::vector<TraversalCost> costs;
@@ -237,7 +237,7 @@ void add_bench_command(CLI::App& app, std::function<int()>& run) {
               for (const std::string& name : options.traversals) parse_traversal("--traversal", name);
             });
   add_size_option(*command, options.picture.size);
-  add_camera_option(*command, options.picture.camera);
+  add_camera_options(*command, options.picture.camera);
   add_seed_option(*command, options.picture.seed);
   add_value(*command, "--time", "S", "Time of the pose in seconds (default: 0)",
             [&](const std::string& text) { options.time = parse_number("--time", text, 0, 1e9); });

@@ -2,6 +2,7 @@
 #include "lodestone/app/common_options.h"
 
 #include <fmt/format.h>
+#include <array>
 
 #include <algorithm>
 #include <iterator>
@@ -190,7 +191,7 @@ scene::Instancing instancing_of(const SceneOptions& options) {
   const geometry_image::ChartSettings& charts = options.atlas.charts;
   const char* needs_one = charts.keep_maps ? "the maps of charts, for relaxation,"
                           : charts.signal == geometry_image::Signal::screen ? "--signal screen"
-                                                                            : nullptr;
+                                                                            : options.one_object;
   if (needs_one == nullptr) return options.instancing;
   if (options.instancing == scene::Instancing::on)
     fail(ExitCode::usage, "--instancing", "{} needs all meshes where they are in the world; use off",
@@ -252,12 +253,58 @@ void add_seed_option(CLI::App& app, uint32_t& seed) {
   });
 }
 
-void add_camera_option(CLI::App& app, std::string& camera) {
+namespace {
+
+// N numbers, with commas between them.
+template <size_t count>
+std::array<double, count> parse_numbers(const std::string& option, const std::string& text, double reach) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  if (parts.size() != count)
+    fail(ExitCode::usage, option, "`{}` is not {} numbers with commas between them", text, count);
+  std::array<double, count> numbers;
+  for (size_t i = 0; i < count; ++i) numbers[i] = parse_number(option, parts[i], -reach, reach);
+  return numbers;
+}
+
+void add_place(CLI::App& app, const std::string& option, const std::string& help,
+               std::optional<glm::vec3>& place) {
+  add_value(app, option, "X,Y,Z", help, [&place, option](const std::string& text) {
+    const auto [x, y, z] = parse_numbers<3>(option, text, 1e9);
+    place = glm::vec3(x, y, z);
+  });
+}
+
+}  // namespace
+
+void add_camera_options(CLI::App& app, render::CameraChoice& camera) {
   add_value(
       app, "--camera", "NAME",
       "Camera of the scene, by name or number, or auto: one that sees the whole animation (default: the "
       "first, else auto)",
-      [&](const std::string& text) { camera = parse_name("--camera", text); });
+      [&](const std::string& text) { camera.name = parse_name("--camera", text); });
+  add_value(
+      app, "--orbit", "AZIMUTH,ELEVATION",
+      "The auto camera from another side, in degrees: 0,0 is the front (from +Z), 90,0 from +X, 180,0 the "
+      "back, 0,90 from above",
+      [&](const std::string& text) {
+        const auto [azimuth, elevation] = parse_numbers<2>("--orbit", text, 360);
+        if (std::abs(elevation) > 90)
+          fail(ExitCode::usage, "--orbit", "an elevation is between -90 and 90 degrees");
+        camera.orbit = glm::vec2(azimuth, elevation);
+      });
+  add_value(
+      app, "--fov", "DEGREES", "The camera's angle of view from bottom to top (default: its own; auto: 34.4)",
+      [&](const std::string& text) { camera.field_of_view = float(parse_number("--fov", text, 0.01, 179)); });
+  add_place(app, "--camera-from", "Where the camera stands, upright, in scene units", camera.from);
+  add_place(app, "--camera-at",
+            "What it looks at (default with --camera-from: the middle of all that the animation reaches)",
+            camera.at);
 }
 
 void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps) {
@@ -317,7 +364,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   add_value(app, "--spp", "N", "Samples a pixel (default: 1)",
             [&](const std::string& text) { options.spp = uint32_t(parse_count("--spp", text, 1, max_spp)); });
   add_seed_option(app, options.seed);
-  add_camera_option(app, options.camera);
+  add_camera_options(app, options.camera);
   add_value(app, "--traversal", "NAME",
             "threaded, octant, wide, tile, or auto: the fastest of the device (default). All give the "
             "same hits",

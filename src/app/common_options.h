@@ -33,6 +33,7 @@ struct SceneOptions {
   geometry_image::AtlasSettings atlas;
   const char* budget_option = "";  // that gave the texel budget, for messages
   scene::Instancing instancing = scene::Instancing::automatic;
+  const char* one_object = nullptr;  // the option, if any, that cannot do with instances
   float height_scale = 0;
   // What stands in for the scene's own sky; empty: nothing.
   std::string environment;
@@ -80,7 +81,7 @@ struct PictureOptions {
   Size size;
   uint32_t spp = 1;
   uint32_t seed = 0;
-  std::string camera;  // empty: the first, or auto
+  render::CameraChoice camera;
   render::Traversal traversal = render::Traversal::automatic;
   render::Integrator integrator = render::Integrator::eye;
   uint32_t max_bounces = 8;
@@ -92,7 +93,8 @@ struct PictureOptions {
 void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps);
 void add_size_option(CLI::App& app, Size& size);
 void add_seed_option(CLI::App& app, uint32_t& seed);
-void add_camera_option(CLI::App& app, std::string& camera);
+// --camera --orbit --fov --camera-from --camera-at
+void add_camera_options(CLI::App& app, render::CameraChoice& camera);
 // Those three, --spp, --traversal, and the integrator with all that it takes.
 void add_picture_options(CLI::App& app, PictureOptions& options);
 // What they say of a picture.

@@ -119,6 +119,7 @@ Json describe_source(const geometry_image::BakeRecord& record) {
 Json describe_distance(const std::optional<geometry_image::Fidelity>& fidelity) {
   if (!fidelity) return nullptr;
   return {{"diagonal", fidelity->diagonal},
+          {"unit", "share of the diagonal"},
           {"from_input", fidelity->from_input},
           {"from_geometry_image", fidelity->from_image},
           {"hausdorff", fidelity->hausdorff()},

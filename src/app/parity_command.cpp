@@ -90,7 +90,7 @@ void render_frames(const ParityOptions& options, const PreparedScene& prepared, 
   settings.shutter_segments = options.shutter_segments;
   settings.aovs = aov_names();
   scene::Bounds bounds;
-  if (prepared.needs_bounds(options.picture.camera)) bounds = prepared.bounds();
+  if (options.picture.camera.needs_bounds(prepared.scene)) bounds = prepared.bounds();
   render::Renderer renderer(backend, prepared.scene, prepared.assembly, prepared.atlas, settings);
   const FrameRange range = options.frames.range();
   for (uint32_t frame = range.first; frame <= range.last; ++frame) {

@@ -8,6 +8,7 @@
 #include "lodestone/app/baked_scene.h"
 #include "lodestone/app/clock.h"
 #include "lodestone/app/stage_clock.h"
+#include "lodestone/base/error.h"
 #include "lodestone/base/log.h"
 
 namespace lodestone::app {
@@ -53,10 +54,6 @@ scene::Bounds PreparedScene::bounds() const {
   return all;
 }
 
-bool PreparedScene::needs_bounds(const std::string& camera) const {
-  return camera == "auto" || (camera.empty() && scene.cameras.empty());
-}
-
 std::string PreparedScene::clip_name() const {
   if (animation == scene::none) return "";
   const std::string& name = scene.animations[animation].name;
@@ -80,6 +77,11 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
   const scene::Instancing instancing = baked ? baked->instancing() : instancing_of(options);
   prepared.assembly =
       timed(prepared.stages, "assemble", [&] { return scene::assemble(prepared.scene, instancing); });
+  if (options.one_object != nullptr && prepared.assembly.has_instances()) {
+    fail(ExitCode::usage, options.one_object,
+         "`{}` was baked with instances, and this cannot do with them; bake it again with --instancing off",
+         options.scene);
+  }
   bool cached = false;
   prepared.atlas = timed(prepared.stages, "charts", [&] {
     if (baked) return baked->take_atlas(prepared.scene, prepared.assembly);
@@ -93,7 +95,7 @@ PreparedScene prepare_scene(const SceneOptions& options, const PoseOptions& pose
                         cached  ? ", atlas from the cache"
                         : baked ? ", atlas as baked"
                                 : ""));
-  if (prepared.assembly.instances.size() > 1 || prepared.assembly.objects.front().rigid) {
+  if (prepared.assembly.has_instances()) {
     log::note(fmt::format("{}: {} instances of {} objects", options.scene, prepared.assembly.instances.size(),
                           prepared.assembly.objects.size()));
   }

@@ -29,8 +29,6 @@ struct PreparedScene {
   scene::Pose pose_at(double seconds) const;
   // What a camera that frames everything must see. Costly; asked for only where one is needed.
   scene::Bounds bounds() const;
-  // Whether `camera` (as --camera takes it) makes find_view() need bounds().
-  bool needs_bounds(const std::string& camera) const;
   std::string clip_name() const;  // "" without an animation
 };
 

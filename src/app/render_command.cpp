@@ -153,7 +153,7 @@ RenderRun::RenderRun(const RenderOptions& options)
   check_keeps(options, output_, prepared_.scene.name);  // which a .lode file has named
   measured_ =
       describe_run("render", options.scene.scene, prepared_, options.picture, device_.backend->info());
-  if (prepared_.needs_bounds(options.picture.camera)) bounds_ = prepared_.bounds();
+  if (options.picture.camera.needs_bounds(prepared_.scene)) bounds_ = prepared_.bounds();
   const double start = now_ms();
   renderer_.emplace(*device_.backend, prepared_.scene, prepared_.assembly, prepared_.atlas,
                     settings_of(options));

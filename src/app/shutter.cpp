@@ -40,9 +40,7 @@ uint32_t shutter_segments(const ShutterOptions& options, SceneOptions& scene) {
       fail(ExitCode::usage, "--shutter-segments", "does nothing without --shutter; give that too");
     return 0;
   }
-  if (scene.instancing == scene::Instancing::on)
-    fail(ExitCode::usage, "--instancing", "--shutter needs all meshes where they are in the world; use off");
-  scene.instancing = scene::Instancing::off;
+  scene.one_object = "--shutter";
   return std::max(options.segments, 1u);
 }
 

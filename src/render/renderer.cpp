@@ -87,7 +87,7 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   // Whole tiles, so that rays that are side by side in the picture stay so.
   batch_rays = waiting == 0 ? rays : std::min<uint64_t>(rays, most_branches / waiting / 64 * 64);
   const uint64_t pixels = uint64_t(settings.width) * settings.height;
-  if (assembly.objects.size() > 1 || assembly.objects.front().rigid) {
+  if (assembly.has_instances()) {
     if (segments > 0) fail(ExitCode::usage, "--shutter", "is not for instances; give --instancing off");
     instances.emplace(device, assembly, settings.loop_budget);
   }
@@ -148,9 +148,10 @@ void Renderer::State::rasterise(uint32_t first_texel, uint32_t image) {
 
 // blend, relax, rasterise, bounds: everything that follows from the pose.
 void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter) {
-  blend(pose, positions);
+  const bool moves = settings.shutter_segments > 0;
+  if (relaxation || !moves) blend(pose, positions);
   if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
-  if (settings.shutter_segments > 0) return update_moving(pose, shutter);
+  if (moves) return update_moving(pose, shutter);
   size_t first = 0;  // object to be made anew
   uint32_t first_texel = 0;
   while (rigid_done && first < assembly.objects.size() && assembly.objects[first].rigid) {

@@ -69,6 +69,22 @@ struct View {
 View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
                const scene::Bounds& bounds, uint32_t width, uint32_t height);
 
+// That camera, or one that is put elsewhere.
+struct CameraChoice {
+  std::string name;  // as above
+  // From where `auto` frames the bounds, degrees: from +Z (the front) towards +X, and upwards from the
+  // ground.
+  std::optional<glm::vec2> orbit;
+  std::optional<float> field_of_view;  // from bottom to top, degrees
+  // In the world, upright; a camera that is given `from` alone looks at the middle of the bounds.
+  std::optional<glm::vec3> from, at;
+
+  bool needs_bounds(const scene::Scene& scene) const;
+};
+// Throws Error(usage) too where the parts contradict each other.
+View find_view(const scene::Scene& scene, const scene::Pose& pose, const CameraChoice& choice,
+               const scene::Bounds& bounds, uint32_t width, uint32_t height);
+
 // What the shutter sees at a time.
 struct Moment {
   scene::Pose pose;

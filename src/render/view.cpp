@@ -47,14 +47,32 @@ View checked(const scene::Scene& scene, View view) {
   return view;
 }
 
-// From the front, a little from above and from the right, as near as all corners of the bounds allow.
-View auto_view(const scene::Bounds& bounds, float aspect) {
+// From the front, a little from above and from the right.
+const vec3 auto_back(0.35f, 0.28f, 1.0f);
+constexpr float auto_field_of_view = 0.6f;
+
+vec3 orbit_back(const glm::vec2& degrees) {
+  const float azimuth = glm::radians(degrees.x), elevation = glm::radians(degrees.y);
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+          std::cos(azimuth) * std::cos(elevation)};
+}
+
+// Two directions square to `back`, the second as upright as can be.
+void find_axes(const vec3& back, vec3& right, vec3& up) {
+  const vec3 vertical = std::abs(back.y) > 0.99999f ? vec3(0, 0, back.y > 0 ? -1 : 1) : vec3(0, 1, 0);
+  right = glm::normalize(glm::cross(vertical, back));
+  up = glm::cross(back, right);
+}
+
+// As near as all corners of the bounds allow.
+View auto_view(const scene::Bounds& bounds, float aspect, const vec3& toward_camera, float field_of_view) {
   const vec3 lo = bounds.empty ? vec3(-1) : bounds.lo, hi = bounds.empty ? vec3(1) : bounds.hi;
   const vec3 center = (lo + hi) * 0.5f;
   const float size = std::max(glm::length(hi - lo), scene::smallest_reach);
-  const vec3 back = glm::normalize(vec3(0.35f, 0.28f, 1.0f));
-  const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back)), up = glm::cross(back, right);
-  const float half = std::tan(0.5f * 0.6f);
+  const vec3 back = glm::normalize(toward_camera);
+  vec3 right, up;
+  find_axes(back, right, up);
+  const float half = std::tan(0.5f * field_of_view);
   const float half_x = half * aspect;
   float distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -99,10 +117,28 @@ layout::LightRecord light_record(const scene::Light& light, const glm::mat4& wor
 
 }  // namespace
 
-View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
-               const scene::Bounds& bounds, uint32_t width, uint32_t height) {
-  const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  if (name == "auto") return checked(scene, auto_view(bounds, aspect));
+namespace {
+
+// With another angle from bottom to top.
+View widened(View view, float field_of_view) {
+  if (!view.perspective)
+    fail(ExitCode::usage, "--fov", "camera {} is orthographic and has none; use another --camera, or auto",
+         view.name.empty() ? "(without a name)" : view.name);
+  const float scale = std::tan(0.5f * field_of_view) / glm::length(view.up);
+  view.right *= scale;
+  view.up *= scale;
+  return view;
+}
+
+View named_view(const scene::Scene& scene, const scene::Pose& pose, const CameraChoice& choice,
+                const scene::Bounds& bounds, float aspect) {
+  const std::string& name = choice.name;
+  const float field_of_view = choice.field_of_view ? glm::radians(*choice.field_of_view) : auto_field_of_view;
+  const auto framed = [&] {
+    return checked(scene, auto_view(bounds, aspect, choice.orbit ? orbit_back(*choice.orbit) : auto_back,
+                                    field_of_view));
+  };
+  if (name == "auto" || choice.orbit) return framed();
   uint32_t number = 0;
   const bool numeric = !name.empty() && std::from_chars(name.data(), name.data() + name.size(), number).ptr ==
                                             name.data() + name.size();
@@ -110,17 +146,58 @@ View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::st
   uint32_t index = 0;
   for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
     if (scene.nodes[node].camera == scene::none) continue;
-    const View view = scene_view(scene, pose, node, aspect);
-    if (name.empty() || view.name == name || scene.nodes[node].name == name || (numeric && index == number))
-      return checked(scene, view);
+    View view = scene_view(scene, pose, node, aspect);
+    if (name.empty() || view.name == name || scene.nodes[node].name == name || (numeric && index == number)) {
+      view = checked(scene, view);
+      return choice.field_of_view ? widened(view, field_of_view) : view;
+    }
     known += (known.empty() ? "" : ", ") + (view.name.empty() ? std::to_string(index) : view.name);
     ++index;
   }
-  if (name.empty()) return checked(scene, auto_view(bounds, aspect));
+  if (name.empty()) return framed();
   if (known.empty())
     fail(ExitCode::usage, "--camera " + name,
          "the scene has no camera of its own; leave the option out, or give auto");
   fail(ExitCode::usage, "--camera " + name, "no such camera; there are: {}, auto", known);
+}
+
+// Elsewhere, and upright.
+View placed(View view, const CameraChoice& choice, const scene::Bounds& bounds) {
+  view.origin = choice.from.value_or(view.origin);
+  const vec3 target = choice.at.value_or(bounds.empty ? vec3(0) : (bounds.lo + bounds.hi) * 0.5f);
+  const vec3 back = view.origin - target;
+  if (!(glm::length(back) > scene::smallest_reach))
+    fail(ExitCode::usage, choice.at ? "--camera-at" : "--camera-from",
+         "is the very place that the camera stands at and looks at; give two places");
+  vec3 right, up;
+  find_axes(glm::normalize(back), right, up);
+  view.right = right * glm::length(view.right);
+  view.up = up * glm::length(view.up);
+  view.forward = -glm::normalize(back);
+  return view;
+}
+
+}  // namespace
+
+bool CameraChoice::needs_bounds(const scene::Scene& scene) const {
+  return name == "auto" || orbit || (name.empty() && scene.cameras.empty()) || (from && !at);
+}
+
+View find_view(const scene::Scene& scene, const scene::Pose& pose, const CameraChoice& choice,
+               const scene::Bounds& bounds, uint32_t width, uint32_t height) {
+  if (choice.orbit && (choice.from || !(choice.name.empty() || choice.name == "auto")))
+    fail(ExitCode::usage, "--orbit", "goes round what --camera auto frames; leave out {}",
+         choice.from ? "--camera-from" : "the other --camera");
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  const View view = named_view(scene, pose, choice, bounds, aspect);
+  return choice.from || choice.at ? checked(scene, placed(view, choice, bounds)) : view;
+}
+
+View find_view(const scene::Scene& scene, const scene::Pose& pose, const std::string& name,
+               const scene::Bounds& bounds, uint32_t width, uint32_t height) {
+  CameraChoice choice;
+  choice.name = name;
+  return find_view(scene, pose, choice, bounds, width, height);
 }
 
 scene::Sky frame_sky(const scene::Scene& scene) {

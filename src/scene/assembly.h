@@ -68,6 +68,8 @@ struct Assembly {
   std::vector<glm::uvec4> triangles;  // three vertices and the part
   uint32_t weight_count = 0, matrix_count = 0;
   bool has_tangents = false;
+  // Whether some of it is traced through instances, and not all of it as one object in the world.
+  bool has_instances() const { return objects.size() > 1 || (!objects.empty() && objects.front().rigid); }
 };
 
 // Throws Error(bad_input) where the scene draws no triangle or more than 2^28 of them (of an object that is

@@ -61,10 +61,11 @@ void ThreadedKernel::load_rays(const Rays& rays) {
 }
 
 void ThreadedKernel::trace() {
-  const std::array<render::BufferId, 11> buffers = {
-      rays_.rays.id(), geometry_.id(), rays_.hits.id(), rays_.states.id(), rays_.steps.id(), pending_.id(),
-      nodes_lo_.id(),  nodes_hi_.id(), links_.id(),     objects_.id(),     rays_.steps.id()};
-  layout::TracePush push{ray_count_, 0, loop_budget};
+  const std::array<render::BufferId, 12> buffers = {rays_.rays.id(),   geometry_.id(),   rays_.hits.id(),
+                                                    rays_.states.id(), rays_.steps.id(), pending_.id(),
+                                                    nodes_lo_.id(),    nodes_hi_.id(),   links_.id(),
+                                                    objects_.id(),     rays_.steps.id(), rays_.steps.id()};
+  layout::TracePush push{ray_count_, 0, loop_budget, 0, 0};
   for (uint32_t pending = 1; pending != 0; push.resume = 1) {
     pending = 0;
     backend_->upload(pending_.id(), std::as_bytes(std::span(&pending, 1)));

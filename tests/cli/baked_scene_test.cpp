@@ -140,6 +140,15 @@ TEST_F(Baked, TakesNoOptionThatContradictsIt) {
   EXPECT_EQ(run({"bake", place("tiny.lode"), "-o", place("again.lode")}).code, 2);
 }
 
+TEST_F(Baked, IsBlurredWhereItHasNoInstances) {
+  bake("builtin:tiny", place("tiny.lode"));
+  EXPECT_EQ(render(place("tiny.lode"), place("x.png"), {"--shutter", "1"}).code, 0);
+  bake("builtin:tiny", place("placed.lode"), {"--instancing", "on"});
+  const Result refused = render(place("placed.lode"), place("x.png"), {"--shutter", "1"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--instancing off"), std::string::npos) << refused.err;
+}
+
 TEST_F(Baked, IsWhatTheStatisticsName) {
   bake("builtin:tiny", place("tiny.lode"));
   ASSERT_EQ(render(place("tiny.lode"), place("x.png"), {"--stats", place("s.json")}).code, 0);

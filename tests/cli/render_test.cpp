@@ -120,6 +120,12 @@ TEST_F(Render, WeightsOverrideTheClip) {
   EXPECT_TRUE(equal_beauty(render("a.exr", {"--time", "0.5"}), render("b.exr", {"--weights", "fold=0.5"})));
 }
 
+TEST_F(Render, TheCameraCanStandAnywhere) {
+  const image::Image front = render("a.exr", {"--camera-from", "0,0,3", "--camera-at", "0,0,0"});
+  EXPECT_FALSE(equal_beauty(front, render("b.exr", {"--camera-from", "0,0,-3", "--camera-at", "0,0,0"})));
+  EXPECT_FALSE(equal_beauty(front, render("c.exr", {"--orbit", "0,0", "--fov", "20"})));
+}
+
 TEST_F(Render, TheCameraCanBeChosen) {
   EXPECT_TRUE(equal_beauty(render("a.exr"), render("b.exr", {"--camera", "Front"})));
   EXPECT_FALSE(equal_beauty(render("c.exr"), render("d.exr", {"--camera", "auto"})));
