@@ -143,7 +143,7 @@ TEST_F(Baked, TakesNoOptionThatContradictsIt) {
 TEST_F(Baked, IsBlurredWhereItHasNoInstances) {
   bake("builtin:tiny", place("tiny.lode"));
   EXPECT_EQ(render(place("tiny.lode"), place("x.png"), {"--shutter", "1"}).code, 0);
-  bake("builtin:tiny", place("placed.lode"), {"--instancing", "on"});
+  bake("builtin:shoal", place("placed.lode"));
   const Result refused = render(place("placed.lode"), place("x.png"), {"--shutter", "1"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_NE(refused.err.find("--instancing off"), std::string::npos) << refused.err;
