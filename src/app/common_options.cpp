@@ -2,9 +2,9 @@
 #include "lodestone/app/common_options.h"
 
 #include <fmt/format.h>
-#include <array>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <string_view>

@@ -39,7 +39,6 @@ struct ParityOptions {
   PictureOptions picture = small_picture();
   uint32_t relaxation_sweeps = 0;
   ShutterOptions shutter;
-  uint32_t shutter_segments = 0;  // what that comes to
   DeviceOptions device;
   std::optional<render::Fault> fault;
   std::string log;
@@ -87,7 +86,7 @@ std::vector<std::string> pass_names(const std::vector<PassDifference>& differenc
 void render_frames(const ParityOptions& options, const PreparedScene& prepared, render::Backend& backend) {
   render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
-  settings.shutter_segments = options.shutter_segments;
+  settings.shutter_segments = options.shutter.settled_segments();
   settings.aovs = aov_names();
   scene::Bounds bounds;
   if (options.picture.camera.needs_bounds(prepared.scene)) bounds = prepared.bounds();
@@ -178,7 +177,7 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
   command->footer("Example: lodestone parity Fox.glb --device gpu --frames 0-3");
   command->callback([options, &run] {
     run = [options] {
-      options->shutter_segments = shutter_segments(options->shutter, options->scene);
+      settle_shutter(options->shutter, options->scene);
       return run_parity(*options);
     };
   });

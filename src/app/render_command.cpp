@@ -39,7 +39,6 @@ struct RenderOptions {
   FrameOptions frames;
   uint32_t relaxation_sweeps = 0;
   ShutterOptions shutter;
-  uint32_t shutter_segments = 0;  // what that comes to
   PictureOptions picture;
   DeviceOptions device;
   std::vector<std::string> aovs;
@@ -96,7 +95,7 @@ OutputPattern check(const RenderOptions& options) {
 render::Settings settings_of(const RenderOptions& options) {
   render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
-  settings.shutter_segments = options.shutter_segments;
+  settings.shutter_segments = options.shutter.settled_segments();
   settings.view = options.view;
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
@@ -193,9 +192,9 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"wall_ms", fmt::format("{}", frame.wall_ms)},  // the only ones that differ between two runs
       {"pass_ms", times.dump()},
   };
-  if (options_.shutter_segments > 0) {
+  if (const uint32_t segments = options_.shutter.settled_segments(); segments > 0) {
     text["shutter"] = fmt::format("{}", options_.shutter.open / options_.frames.fps);  // seconds
-    text["shutter_segments"] = std::to_string(options_.shutter_segments);
+    text["shutter_segments"] = std::to_string(segments);
   }
   if (options_.picture.denoise) text["denoise"] = render::denoise_description();
   if (const std::optional<scene::Environment>& environment = prepared_.scene.environment) {
@@ -343,7 +342,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
       "Example: lodestone render Fox.glb -o fox.####.exr --frames 0-47 --clip Run --aov depth,normal");
   command->callback([options, &run] {
     run = [options] {
-      options->shutter_segments = shutter_segments(options->shutter, options->scene);
+      settle_shutter(options->shutter, options->scene);
       return RenderRun(*options).run();
     };
   });

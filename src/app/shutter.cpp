@@ -14,10 +14,6 @@ namespace {
 
 constexpr double longest_shutter = 100;  // frames
 
-bool moves(const ShutterOptions& options) {
-  return options.open > 0;
-}
-
 }  // namespace
 
 void add_shutter_options(CLI::App& app, ShutterOptions& options) {
@@ -34,24 +30,22 @@ void add_shutter_options(CLI::App& app, ShutterOptions& options) {
             });
 }
 
-uint32_t shutter_segments(const ShutterOptions& options, SceneOptions& scene) {
-  if (!moves(options)) {
-    if (options.segments > 0)
-      fail(ExitCode::usage, "--shutter-segments", "does nothing without --shutter; give that too");
-    return 0;
+void settle_shutter(const ShutterOptions& options, SceneOptions& scene) {
+  if (options.settled_segments() > 0) {
+    scene.one_object = "--shutter";
+  } else if (options.segments > 0) {
+    fail(ExitCode::usage, "--shutter-segments", "does nothing without --shutter; give that too");
   }
-  scene.one_object = "--shutter";
-  return std::max(options.segments, 1u);
 }
 
 std::vector<render::Moment> shutter_moments(const ShutterOptions& options, const PreparedScene& prepared,
                                             const PictureOptions& picture, const scene::Bounds& bounds,
                                             double seconds, double fps) {
   std::vector<render::Moment> moments;
-  if (!moves(options)) return moments;
+  const uint32_t segments = options.settled_segments();
+  if (segments == 0) return moments;
   const double last =
       prepared.animation == scene::none ? 0 : prepared.scene.animations[prepared.animation].duration();
-  const uint32_t segments = std::max(options.segments, 1u);
   for (uint32_t i = 0; i <= segments; ++i) {
     const double at = seconds + options.open / fps * (double(i) / segments - 0.5);
     render::Moment& moment = moments.emplace_back();

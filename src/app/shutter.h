@@ -2,6 +2,7 @@
 // Motion blur as the command line has it, and what the shutter sees of a frame.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "lodestone/app/common_options.h"
@@ -12,15 +13,18 @@ namespace lodestone::app {
 
 struct ShutterOptions {
   double open = 0;        // frames; 0: an instant
-  uint32_t segments = 0;  // 0: not said
+  uint32_t segments = 0;  // as given; 0: not given
+
+  // render::Settings::shutter_segments.
+  uint32_t settled_segments() const { return open > 0 ? std::max(segments, 1u) : 0; }
 };
 
 // --shutter --shutter-segments
 void add_shutter_options(CLI::App& app, ShutterOptions& options);
 
-// render::Settings::shutter_segments. With motion the whole scene becomes one object (`scene`). Throws
-// Error(usage) where instances are asked for with it, or segments without it.
-uint32_t shutter_segments(const ShutterOptions& options, SceneOptions& scene);
+// Has the scene made one object where something is to move, for instances do not. Throws Error(usage) where
+// segments are given and no shutter.
+void settle_shutter(const ShutterOptions& options, SceneOptions& scene);
 
 // The moments of the frame at the wrapped time `seconds`, which is in the middle; empty without motion. A
 // clip is not looped within a frame: before its beginning and past its end nothing moves.

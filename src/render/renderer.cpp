@@ -340,6 +340,9 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
                                             const std::vector<Moment>& shutter) {
   State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
+  const uint32_t segments = s.settings.shutter_segments;
+  if (shutter.size() != (segments > 0 ? segments + 1 : 0))
+    fail(ExitCode::usage, "shutter", "{} moments are not the ends of {} segments", shutter.size(), segments);
   s.update(pose, shutter);
   s.begin_frame(pose, view, shutter);
   const uint32_t total = s.total_rays();

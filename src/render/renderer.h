@@ -110,7 +110,7 @@ class Renderer {
 
   // One frame. `interrupted` is asked between batches; where it says yes, nothing is returned. `shutter`:
   // with motion blur, the moments at the ends of its segments, from the opening to the closing; lights and
-  // tangents are those of `pose`, in between.
+  // tangents are those of `pose`, in between. Throws Error(usage) where there is another number of them.
   std::optional<FrameResult> render(const scene::Pose& pose, const View& view,
                                     const std::function<bool()>& interrupted = {},
                                     const std::vector<Moment>& shutter = {});

@@ -115,10 +115,6 @@ layout::LightRecord light_record(const scene::Light& light, const glm::mat4& wor
   return record;
 }
 
-}  // namespace
-
-namespace {
-
 // With another angle from bottom to top.
 View widened(View view, float field_of_view) {
   if (!view.perspective)

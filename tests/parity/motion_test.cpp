@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lodestone/cpu_fallback/cpu_backend.h"
+#include "lodestone/base/error.h"
 #include "lodestone/test_support/bulging_sphere.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/picture.h"
@@ -197,6 +197,17 @@ TEST_P(Motion, HasTheBitsOfTheCpuInEveryPass) {
       for (const render::PassDifference& row : both.differences())
         EXPECT_EQ(row.different, 0u) << row.pass << " " << row.buffer << " word " << row.first;
     }
+  }
+}
+
+TEST(MotionBlur, WantsTheMomentsAtTheEndsOfItsSegments) {
+  const auto cpu = open("cpu");
+  const ReadyScene ready(facing_camera({square(0, 0)}, {{}}), AtlasKind::exact);
+  const scene::Pose pose = ready.pose(0);
+  const render::View view = render::find_view(ready.scene, pose, "0", {}, side, side);
+  for (const uint32_t segments : {0u, 2u}) {
+    render::Renderer renderer(*cpu, ready.scene, ready.assembly, ready.atlas, settings_of(segments, 1));
+    EXPECT_THROW(renderer.render(pose, view, {}, {{pose, view}, {pose, view}}), Error) << segments;
   }
 }
 
