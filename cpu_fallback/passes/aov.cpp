@@ -27,9 +27,11 @@ class Aov : public SurfaceKernel<Probe, source_count> {
     const uvec1 visited = this->load(steps_, index);
     const uvec1 pixel = py * frame.width + px;
     uvec4 first(0x7f800000u, 0u, 0u, 0u), second(0u, 0u, 0u, 0u), third(0u, 0u, no_index, no_index);
+    vec1 level = 0.0f;
     if (const Where here(*this, hit.w != no_index); here.any()) {
       const vec3 direction = as_vec3(this->load_own(rays_, 2, 1));
       const auto point = this->locate_hit(hit);
+      level = select(this->active(), this->detail_of(hit.w, point), level);
       this->for_each_part(point, [&](const PartRecord& part, const MaterialRecord& material) HWY_ATTR {
         const Surface surface = this->surface_at(material, point, direction);
         const uvec4 normal = as_bits(surface.normal, 0u);
@@ -45,7 +47,7 @@ class Aov : public SurfaceKernel<Probe, source_count> {
     this->store(aovs_, pixel, first, 4, 0);
     this->store(aovs_, pixel, second, 4, 1);
     this->store(aovs_, pixel, third, 4, 2);
-    this->store(aovs_, pixel, uvec4(0u, visited, 0u, 0u), 4, 3);
+    this->store(aovs_, pixel, uvec4(floatBitsToUint(level), visited, 0u, 0u), 4, 3);
   }
 
  private:

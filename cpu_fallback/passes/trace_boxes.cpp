@@ -20,6 +20,7 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
     const layout::Slabs slabs = layout::make_slabs(ray, extents_[root]);
     const layout::Shear shear = layout::make_shear(ray);
     const layout::BoxRay box_ray = layout::make_box_ray(slabs, layout::object_grid(object_));
+    this->load_tolerance(index);
     typename TraceKernel<Probe, 10>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
@@ -27,7 +28,20 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
     if (walk.levels != 0) walk.trail = this->load(trails_, index);
     if (!(ray.tmax < 0.0f)) {
       for (uint32_t budget = this->push_.budget; walk.depth != layout::walk_done && budget != 0; --budget) {
-        const uint32_t list = visit(walk, box_ray, slabs.octant, ray.tmin, best.t);
+        layout::BoxRay against = box_ray;
+        if (this->detailed()) {
+          const uint64_t number = uint64_t(object_.first_detail) + layout::level_base(walk.depth) + walk.index;
+          const layout::NodeDetail detail = this->load_detail(number);
+          if (layout::is_whole(detail, this->tolerance())) {
+            this->count_step(4);
+            this->test_whole(number, moving_, ray, slabs, shear, state.place.w, best);
+            if (this->any_hit() && best.primitive != layout::no_index) walk.levels = 0;
+            walk = layout::box_walk_on(walk);
+            continue;
+          }
+          against = layout::widened(box_ray, slabs, layout::child_margin(detail, this->tolerance()));
+        }
+        const uint32_t list = visit(walk, against, slabs.octant, ray.tmin, best.t);
         const bool entered = list >> 8 != 0;
         if (entered && walk.depth + 1 != object_.depth) {
           walk = layout::box_walk_down(walk, list);

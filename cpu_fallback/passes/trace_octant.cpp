@@ -17,6 +17,7 @@ class TraceOctant : public NodesKernel<Probe, 8> {
     const layout::ObjectRecord object = this->load_object(this->root(index, moving));
     const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(object.first_node));
     const layout::Shear shear = layout::make_shear(ray);
+    this->load_tolerance(index);
     typename NodesKernel<Probe, 8>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
@@ -27,13 +28,20 @@ class TraceOctant : public NodesKernel<Probe, 8> {
         const uint32_t address = object.first_node + layout::walk_address(walk);
         const uvec4 lo = this->load(this->nodes_lo_, address), hi = this->load(this->nodes_hi_, address);
         this->count_step();
-        const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
-        const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
-        if (inside && walk.depth != object.depth) {
+        const uint64_t number = object.first_detail + layout::walk_address(walk);
+        const uint64_t above = walk.depth == 0 ? 0
+                                               : object.first_detail + layout::level_base(walk.depth - 1) +
+                                                     ((walk.order ^ walk.turns) >> 2);
+        const auto [enter, inside] =
+            this->enter_node(lo, hi, slabs, ray.tmin, best.t, walk.depth == 0 ? nullptr : &above);
+        const bool whole = inside && walk.depth != object.depth && this->is_whole(number);
+        if (inside && walk.depth != object.depth && !whole) {
           walk = layout::walk_down(walk, (lo.w >> (2 * slabs.octant)) & 3u);
           continue;
         }
-        if (inside) {
+        if (whole) {
+          this->test_whole(number, moving, ray, slabs, shear, state.place.w, best);
+        } else if (inside) {
           this->test_leaf(lo.w & ~layout::leaf_flag, hi.w, moving, ray, slabs, shear, state.place.w, enter,
                           best);
         }

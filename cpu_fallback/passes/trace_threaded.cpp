@@ -14,9 +14,11 @@ class TraceThreaded : public NodesKernel<Probe, 9> {
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
     typename NodesKernel<Probe, 9>::Moving moving;
-    const uint32_t first_node = this->load_object(this->root(index, moving)).first_node;
+    const layout::ObjectRecord object = this->load_object(this->root(index, moving));
+    const uint32_t first_node = object.first_node;
     const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(first_node));
     const layout::Shear shear = layout::make_shear(ray);
+    this->load_tolerance(index);
     typename NodesKernel<Probe, 9>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
@@ -27,14 +29,19 @@ class TraceThreaded : public NodesKernel<Probe, 9> {
         const uvec4 lo = this->load(this->nodes_lo_, address), hi = this->load(this->nodes_hi_, address);
         const uint32_t hit = this->load(links_, 2 * address), miss = this->load(links_, 2 * address + 1);
         this->count_step();
-        const float enter = layout::slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
-        const bool inside = enter <= layout::slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+        const uint64_t number = uint64_t(object.first_detail) + link;
+        const uint64_t above = link == 0 ? 0 : object.first_detail + layout::node_above(link);
+        const auto [enter, inside] =
+            this->enter_node(lo, hi, slabs, ray.tmin, best.t, link == 0 ? nullptr : &above);
         const bool at_leaf = inside && (hit & layout::leaf_flag) != 0;
-        if (at_leaf) {
+        const bool whole = inside && !at_leaf && this->is_whole(number);
+        if (whole) {
+          this->test_whole(number, moving, ray, slabs, shear, state.place.w, best);
+        } else if (at_leaf) {
           this->test_leaf(hit & ~layout::leaf_flag, hi.w, moving, ray, slabs, shear, state.place.w, enter,
                           best);
         }
-        link = inside && !at_leaf ? hit : miss;
+        link = inside && !at_leaf && !whole ? hit : miss;
         if (this->any_hit() && best.primitive != layout::no_index) link = 0;
         if (link == 0) break;
       }

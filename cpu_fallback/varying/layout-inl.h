@@ -15,6 +15,7 @@
 #include "lodestone/cpu_fallback/varying/numbers-inl.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/denoise.h"
+#include "lodestone/layout/detail.h"
 #include "lodestone/layout/motion.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray_state.h"
@@ -31,6 +32,7 @@ using namespace layout;  // behind what is declared here
 #undef LODESTONE_LAYOUT_BSDF_H
 #undef LODESTONE_LAYOUT_CAMERA_H
 #undef LODESTONE_LAYOUT_DENOISE_H
+#undef LODESTONE_LAYOUT_DETAIL_H
 #undef LODESTONE_LAYOUT_MOTION_H
 #undef LODESTONE_LAYOUT_PATH_H
 #undef LODESTONE_LAYOUT_RAY_H
@@ -45,6 +47,7 @@ using namespace layout;  // behind what is declared here
 #include "lodestone/layout/bsdf.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/denoise.h"
+#include "lodestone/layout/detail.h"
 #include "lodestone/layout/motion.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray.h"

@@ -71,9 +71,9 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Structs<MaterialRecord> materials = this->template structs<MaterialRecord>(13);
   Structs<TextureRecord> textures = this->template structs<TextureRecord>(14);
   Structs<FrameRecord> frames = this->template structs<FrameRecord>(15);
-  Words hit_instances = this->words(16);
+  Words ray_words = this->words(16);
   Quads instances = this->quads(17);
-  Words times = this->words(18);
+  Words collapses = this->words(18);
   uint32_t instanced = this->constant(4), segments = this->constant(5);
 
   static constexpr uint32_t sources = source_count, layered = is_layered ? 1 : 0;
@@ -90,20 +90,29 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   // The instances in which the active invocations' rays have hit something.
   HWY_ATTR uvec1 placed_by() {
     if (instanced == 0) return 0u;
-    return select(this->active(), this->load(hit_instances, this->own_index()), 0u);
+    return select(this->active(), this->load(ray_words, this->own_index()), 0u);
   }
 
   // When.
   HWY_ATTR Moment moment() {
     if (segments == 0) return {0u, 0.0f};
-    return moment_of(uintBitsToFloat(this->load(times, this->own_index())), segments);
+    return moment_of(uintBitsToFloat(this->load(ray_words, this->own_index())), segments);
+  }
+
+  Tolerance tolerance() {
+    Tolerance t;
+    const FrameRecord& frame = frames[0];
+    t.camera = {frame.origin, frame.tolerance, frame.tolerance_spread};
+    t.scattered = no_cone();
+    return t;
   }
 
   // Of the active invocations' hits.
   HWY_ATTR SurfacePoint locate_hit(const uvec4& hit) {
     // Nothing absurd where nothing was hit: it would take the slow way of divisions.
     const uvec1 primitive = select(this->active(), hit.w, 0u);
-    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(), moment());
+    return locate(primitive, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(), moment(),
+                  tolerance());
   }
 
   // Calls body(part, material) for each part that invocations have hit, with those active that have hit it.
@@ -140,7 +149,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
 };
 
 // Defines NAME_block, a BlockFunction (kernel.h), for the pass template PASS. The dispatch's first constant
-// is the second argument of the template: 1 or 3.
+// is the second argument of the template: 1, 3 or 6.
 #define LODESTONE_SURFACE_BLOCK_FUNCTION(NAME, PASS)                                                 \
   template <class Probe>                                                                             \
   using PASS##OfOne = PASS<Probe, 1>;                                                                \
@@ -148,10 +157,15 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   using PASS##OfThree = PASS<Probe, 3>;                                                              \
   LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_one, PASS##OfOne)                                       \
   LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_three, PASS##OfThree)                                   \
+  template <class Probe>                                                                             \
+  using PASS##OfSix = PASS<Probe, detailed_sources>;                                                 \
+  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_six, PASS##OfSix)                                       \
   HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,              \
                              render::Counters* counters) {                                           \
-    (dispatch.constants[0] == 1 ? NAME##_of_one_block : NAME##_of_three_block)(dispatch, begin, end, \
-                                                                               counters);            \
+    const uint32_t sources = dispatch.constants[0];                                                  \
+    (sources == 1   ? NAME##_of_one_block                                                            \
+     : sources == 3 ? NAME##_of_three_block                                                          \
+                    : NAME##_of_six_block)(dispatch, begin, end, counters);                          \
   }
 
 // The same for a pass whose template has a third argument: whether the dispatch's second constant is not 0.

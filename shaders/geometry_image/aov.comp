@@ -24,11 +24,13 @@ void main() {
   uint pixel = py * frame.width + px;
   uvec4 first = uvec4(0x7f800000u, 0u, 0u, 0u);  // depth +inf, normal 0
   uvec4 second = uvec4(0u);
+  float level = 0.0;
   uvec4 third = uvec4(0u, 0u, no_index, no_index);
   if (hit.w != no_index) {
     uvec4 along;
     LOAD4(along, rays, 2u * index + 1u);
     SurfacePoint point = locate_hit(index, hit);
+    level = detail_of(hit.w, point);
     PartRecord part = parts[point.part];
     MaterialRecord material = materials[part.material];
     count_read(24u);
@@ -41,6 +43,6 @@ void main() {
   STORE4(aovs, 4u * pixel, first);
   STORE4(aovs, 4u * pixel + 1u, second);
   STORE4(aovs, 4u * pixel + 2u, third);
-  STORE4(aovs, 4u * pixel + 3u, uvec4(0u, visited, 0u, 0u));  // level of detail 0: always full resolution
+  STORE4(aovs, 4u * pixel + 3u, uvec4(floatBitsToUint(level), visited, 0u, 0u));
   flush_counters();
 }

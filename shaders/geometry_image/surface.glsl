@@ -2,6 +2,7 @@
 // The buffers that surface.h reads: slots 0 to 18 of `mask`, `shade`, `aov` and their like.
 #include "kernel.glsl"
 #include "layout/shading.h"
+#include "layout/detail.h"
 #include "layout/motion.h"
 #include "layout/objects.h"
 
@@ -21,9 +22,9 @@ STRUCTS(12, readonly, PartRecord, parts);
 STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
-WORDS(16, readonly, hit_instances);
+WORDS(16, readonly, ray_words);  // of each ray the instance that it hit, or its time
 QUADS(17, readonly, instances);
-WORDS(18, readonly, times);
+WORDS(18, readonly, collapses);
 
 layout(constant_id = 2) const uint sources = 1u;
 layout(constant_id = 3) const uint layered = 0u;
@@ -37,7 +38,7 @@ layout(constant_id = 7) const uint segments = 0u;
 // The instance in which ray `index` has hit something.
 uint placed_by(uint index) {
   uint instance = 0u;
-  if (instanced != 0u) LOAD1(instance, hit_instances, index);
+  if (instanced != 0u) LOAD1(instance, ray_words, index);
   return instance;
 }
 
@@ -48,12 +49,23 @@ Moment moment_at(uint index) {
   moment.fraction = 0.0;
   if (segments != 0u) {
     uint time;
-    LOAD1(time, times, index);
+    LOAD1(time, ray_words, index);
     moment = moment_of(uintBitsToFloat(time), segments);
   }
   return moment;
 }
 
+// What the ray tolerates.
+Tolerance tolerance_of(uint index) {
+  Tolerance tolerance;
+  tolerance.camera.apex = frames[0].origin;
+  tolerance.camera.width = frames[0].tolerance;
+  tolerance.camera.spread = frames[0].tolerance_spread;
+  tolerance.scattered = no_cone();
+  return tolerance;
+}
+
 SurfacePoint locate_hit(uint index, uvec4 hit) {
-  return locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index), moment_at(index));
+  return locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index), moment_at(index),
+                tolerance_of(index));
 }

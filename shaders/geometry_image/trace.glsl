@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the traversals share: a ray, the object whose hierarchy it goes through, its hit, and its state from dispatch to
-// dispatch. Before this come their own buffers, `objects`, `roots` and `times` among them, push constants and counters.
+// dispatch. Before this come their own buffers, `objects`, `roots`, `times` and those of layout/detail.h among them, push
+// constants and counters.
+#include "layout/detail_nodes.h"
 #include "layout/motion.h"
 #include "layout/objects.h"
 
@@ -16,6 +18,8 @@ layout(constant_id = 3) const uint write_steps = 0u;
 layout(constant_id = 4) const uint instanced = 0u;  // 1: of each ray, `roots` says which object; 0: all of the first
 
 layout(constant_id = 5) const uint segments = 0u;   // layout/motion.h; 0: nothing moves, else `times` says when
+
+layout(constant_id = 6) const uint detailed = 0u;   // 1: levels of detail (layout/detail.h)
 
 uint node_visits = 0u;
 uint triangle_tests = 0u;
@@ -59,6 +63,32 @@ ObjectRecord load_object(uint object) {
   return object_record(a, b, c, d);
 }
 
+// What the ray tolerates.
+Tolerance tolerance;
+
+void load_tolerance(uint index) {
+  if (detailed == 0u) return;
+  tolerance.camera.apex = push.camera;
+  tolerance.camera.width = push.camera_width;
+  tolerance.camera.spread = push.camera_spread;
+  tolerance.scattered = no_cone();
+  if (push.scattered != 0u) {
+    uvec4 a;
+    uvec4 b;
+    LOAD4(a, cones, 2u * index);
+    LOAD4(b, cones, 2u * index + 1u);
+    tolerance.scattered = stored_cone(a, b);
+  }
+}
+
+NodeDetail load_detail(uint number) {
+  uvec4 a;
+  uvec4 b;
+  LOAD4(a, node_details, 2u * number);
+  LOAD4(b, node_details, 2u * number + 1u);
+  return node_detail(a, b);
+}
+
 uint boxes_a_step = 1u;
 
 void count_step() {
@@ -74,26 +104,45 @@ vec3 corner_at(uint texel) {
     LOAD4(bits, geometry, image + push.image_texels + texel);
     point = moved3(point, as_vec3(bits), passed);
   }
+  if (detailed != 0u) {
+    uint parent;
+    uint radius;
+    LOAD1(parent, collapses, 2u * texel);
+    LOAD1(radius, collapses, 2u * texel + 1u);
+    LOAD4(bits, geometry, image + parent);
+    point = slid(point, as_vec3(bits), collapse_of(tolerance_at(tolerance, point), uintBitsToFloat(radius)));
+  }
   return point;
 }
 
-// Where the quad's own bound has not been asked yet.
-void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, inout Hit best) {
+// Where the quad's own bound has not been asked yet. `across` and `along`: how far its corners are apart; `level`: of
+// detail.
+void test_quad_of(uint texel, uint across, uint along, uint level, Ray ray, Slabs slabs, Shear shear, uint next,
+                  inout Hit best) {
   vec3 a = corner_at(texel);
-  vec3 b = corner_at(texel + 1u);
-  vec3 c = corner_at(texel + stride);
-  vec3 d = corner_at(texel + stride + 1u);
+  vec3 b = corner_at(texel + across);
+  vec3 c = corner_at(texel + along);
+  vec3 d = corner_at(texel + across + along);
   Bound bound = quad_bound(a, b, c, d);
   float enter = slab_enter(slabs, bound.lo, bound.hi, ray.tmin);
   if (enter <= slab_exit(slabs, bound.lo, bound.hi, best.t)) {
-    intersect_quad(a, b, c, d, ray, shear, next, enter, texel, best);
+    intersect_quad(a, b, c, d, ray, shear, next, enter, texel | (level << (level_shift - 1u)), best);
   }
   triangle_tests += 2u;
 }
+void test_quad(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, inout Hit best) {
+  test_quad_of(texel, 1u, stride, 0u, ray, slabs, shear, next, best);
+}
+// The quad that node `number` is, where it is whole.
+void test_whole(uint number, Ray ray, Slabs slabs, Shear shear, uint next, inout Hit best) {
+  uvec4 quad;
+  LOAD4(quad, coarse_quads, number);
+  test_quad_of(quad.x, quad.y, quad.z, quad.w, ray, slabs, shear, next, best);
+}
 
-// Where it has, and said `enter`; unless it was that of a whole segment.
+// Where it has, and said `enter`; unless that was of a whole segment, or of corners that have not slid yet.
 void test_leaf(uint texel, uint stride, Ray ray, Slabs slabs, Shear shear, uint next, float enter, inout Hit best) {
-  if (segments != 0u) {
+  if (segments != 0u || detailed != 0u) {
     test_quad(texel, stride, ray, slabs, shear, next, best);
     return;
   }

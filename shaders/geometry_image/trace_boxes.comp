@@ -15,7 +15,11 @@ QUADS(9, restrict, trails);
 QUADS(10, readonly, objects);
 WORDS(11, readonly, roots);
 WORDS(12, readonly, times);
-COUNTERS(13)
+WORDS(13, readonly, collapses);
+QUADS(14, readonly, node_details);
+QUADS(15, readonly, coarse_quads);
+QUADS(16, readonly, cones);
+COUNTERS(17)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
@@ -30,6 +34,7 @@ void main() {
   Slabs slabs = make_slabs(ray, extents[root]);
   Shear shear = make_shear(ray);
   BoxRay box_ray = make_box_ray(slabs, object_grid(object));
+  load_tolerance(index);
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) {
@@ -47,6 +52,8 @@ void main() {
   uint budget = push.budget;
   while (walking) {
     uint leaves = 0u;
+    bool whole = false;  // the node is a quad itself
+    uint number = 0u;
     while (walking && leaves == 0u) {
       uint record = 3u * (object.first_node + level_base(walk.depth) + walk.index);
       uvec4 x;
@@ -56,9 +63,17 @@ void main() {
       LOAD4(y, boxes, record + 1u);
       LOAD4(z, boxes, record + 2u);
       count_step();
-      uint list = box_list(box_keys(x, y, z, box_ray, slabs.octant, ray.tmin, best.t));
+      BoxRay against = box_ray;
+      if (detailed != 0u) {
+        number = object.first_detail + level_base(walk.depth) + walk.index;
+        NodeDetail detail = load_detail(number);
+        whole = is_whole(detail, tolerance);
+        against = widened(box_ray, slabs, child_margin(detail, tolerance));
+      }
+      uint list = box_list(box_keys(x, y, z, against, slabs.octant, ray.tmin, best.t));
+      if (detailed != 0u && whole) list = 256u;
       bool entered = (list >> 8u) != 0u;
-      if (entered && walk.depth + 1u == object.depth) {
+      if (entered && (walk.depth + 1u == object.depth || (detailed != 0u && whole))) {
         leaves = list;
       } else {
         if (entered) {
@@ -73,11 +88,19 @@ void main() {
     bool at_leaf = leaves != 0u;
     while (at_leaf) {
       uint slot = object.first_slot + 4u * walk.index + (leaves & 3u);
+      if (detailed != 0u && whole) slot = object.first_slot;
       uint texel;
       uint stride;
       LOAD1(texel, leaf_map, 2u * slot);
       LOAD1(stride, leaf_map, 2u * slot + 1u);
-      test_quad(texel, stride, ray, slabs, shear, state.w, best);
+      if (detailed != 0u) {
+        uvec4 quad;
+        LOAD4(quad, coarse_quads, number);
+        if (!whole) quad = uvec4(texel, 1u, stride, 0u);
+        test_quad_of(quad.x, quad.y, quad.z, quad.w, ray, slabs, shear, state.w, best);
+      } else {
+        test_quad(texel, stride, ray, slabs, shear, state.w, best);
+      }
       leaves = ((leaves & 255u) >> 2u) | ((leaves - 256u) & 1792u);
       at_leaf = leaves > 255u;
       if (any_hit != 0u && best.primitive != no_index) {

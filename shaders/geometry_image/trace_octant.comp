@@ -9,7 +9,11 @@
 QUADS(8, readonly, objects);
 WORDS(9, readonly, roots);
 WORDS(10, readonly, times);
-COUNTERS(11)
+WORDS(11, readonly, collapses);
+QUADS(12, readonly, node_details);
+QUADS(13, readonly, coarse_quads);
+QUADS(14, readonly, cones);
+COUNTERS(15)
 
 #include "geometry_image/trace_nodes.glsl"
 
@@ -20,6 +24,7 @@ void main() {
   ObjectRecord object = load_object(load_root(index));
   Slabs slabs = make_slabs(ray, root_extent(object.first_node));
   Shear shear = make_shear(ray);
+  load_tolerance(index);
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) {
@@ -36,6 +41,8 @@ void main() {
   uint budget = push.budget;
   while (walking) {
     bool at_leaf = false;
+    bool whole = false;
+    uint number = 0u;
     float enter = 0.0;
     uint texel = 0u;
     uint stride = 0u;
@@ -46,9 +53,22 @@ void main() {
       LOAD4(lo, nodes_lo, address);
       LOAD4(hi, nodes_hi, address);
       count_step();
-      enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
-      bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+      vec3 low = as_vec3(lo);
+      vec3 high = as_vec3(hi);
+      if (detailed != 0u && walk.depth != 0u) {
+        uint above = (walk.order ^ walk.turns) >> 2u;
+        float margin = child_margin(load_detail(object.first_detail + level_base(walk.depth - 1u) + above), tolerance);
+        low = low - vec3(margin);
+        high = high + vec3(margin);
+      }
+      enter = slab_enter(slabs, low, high, ray.tmin);
+      bool inside = enter <= slab_exit(slabs, low, high, best.t);
       at_leaf = inside && walk.depth == object.depth;
+      if (detailed != 0u && inside && !at_leaf) {
+        number = object.first_detail + walk_address(walk);
+        whole = is_whole(load_detail(number), tolerance);
+        at_leaf = whole;
+      }
       texel = lo.w & ~leaf_flag;
       stride = hi.w;
       if (!at_leaf) {
@@ -62,7 +82,11 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, slabs, shear, state.w, enter, best);
+      if (detailed != 0u && whole) {
+        test_whole(number, ray, slabs, shear, state.w, best);
+      } else {
+        test_leaf(texel, stride, ray, slabs, shear, state.w, enter, best);
+      }
       walk = walk_on(walk);
       if (any_hit != 0u && best.primitive != no_index) walk.depth = walk_done;
       budget -= 1u;

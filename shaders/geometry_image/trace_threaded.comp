@@ -9,7 +9,11 @@ WORDS(8, readonly, links);
 QUADS(9, readonly, objects);
 WORDS(10, readonly, roots);
 WORDS(11, readonly, times);
-COUNTERS(12)
+WORDS(12, readonly, collapses);
+QUADS(13, readonly, node_details);
+QUADS(14, readonly, coarse_quads);
+QUADS(15, readonly, cones);
+COUNTERS(16)
 
 #include "geometry_image/trace_nodes.glsl"
 
@@ -17,9 +21,11 @@ void main() {
   uint index = invocation();
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
-  uint first_node = load_object(load_root(index)).first_node;
+  ObjectRecord object = load_object(load_root(index));
+  uint first_node = object.first_node;
   Slabs slabs = make_slabs(ray, root_extent(first_node));
   Shear shear = make_shear(ray);
+  load_tolerance(index);
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) {
@@ -33,6 +39,8 @@ void main() {
   while (walking) {
     // Nodes until a leaf is entered. On a device that runs both sides of every branch, leaves wait for each other here.
     bool at_leaf = false;
+    bool whole = false;
+    uint number = 0u;
     float enter = 0.0;
     uint miss = 0u;
     uint texel = 0u;
@@ -46,9 +54,21 @@ void main() {
       LOAD1(hit, links, 2u * (first_node + link));
       LOAD1(miss, links, 2u * (first_node + link) + 1u);
       count_step();
-      enter = slab_enter(slabs, as_vec3(lo), as_vec3(hi), ray.tmin);
-      bool inside = enter <= slab_exit(slabs, as_vec3(lo), as_vec3(hi), best.t);
+      vec3 low = as_vec3(lo);
+      vec3 high = as_vec3(hi);
+      if (detailed != 0u && link != 0u) {
+        float margin = child_margin(load_detail(object.first_detail + node_above(link)), tolerance);
+        low = low - vec3(margin);
+        high = high + vec3(margin);
+      }
+      enter = slab_enter(slabs, low, high, ray.tmin);
+      bool inside = enter <= slab_exit(slabs, low, high, best.t);
       at_leaf = inside && (hit & leaf_flag) != 0u;
+      if (detailed != 0u && inside && !at_leaf) {
+        number = object.first_detail + link;
+        whole = is_whole(load_detail(number), tolerance);
+        at_leaf = whole;
+      }
       texel = hit & ~leaf_flag;
       stride = hi.w;
       if (!at_leaf) {
@@ -58,7 +78,11 @@ void main() {
       }
     }
     if (at_leaf) {
-      test_leaf(texel, stride, ray, slabs, shear, state.w, enter, best);
+      if (detailed != 0u && whole) {
+        test_whole(number, ray, slabs, shear, state.w, best);
+      } else {
+        test_leaf(texel, stride, ray, slabs, shear, state.w, enter, best);
+      }
       link = any_hit != 0u && best.primitive != no_index ? 0u : miss;
       budget -= 1u;
       walking = link != 0u && budget != 0u;

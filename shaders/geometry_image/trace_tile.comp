@@ -17,7 +17,11 @@ STRUCTS(8, readonly, float, extents);
 QUADS(9, readonly, objects);
 WORDS(10, readonly, roots);
 WORDS(11, readonly, times);
-COUNTERS(12)
+WORDS(12, readonly, collapses);
+QUADS(13, readonly, node_details);
+QUADS(14, readonly, coarse_quads);
+QUADS(15, readonly, cones);
+COUNTERS(16)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"

@@ -126,6 +126,15 @@ FN BoxRay make_box_ray(IN(Slabs) s, IN(BoxGrid) grid) {
   return r;
 }
 
+// For boxes whose surface may be farther out by `margin`, on all sides.
+FN BoxRay widened(IN(BoxRay) ray, IN(Slabs) s, float margin) {
+  BoxRay r = ray;
+  vec3 reach = vec3(abs1(s.inverse.x), abs1(s.inverse.y), abs1(s.inverse.z)) * (margin * 1.0001f);
+  r.near_offset = ray.near_offset - reach;
+  r.far_offset = ray.far_offset + reach;
+  return r;
+}
+
 FN vec4 plane_distances(uint even_odd, uint next_two, float scale, float offset) {
   return vec4(float(int(even_odd & 0xffffu)) * scale + offset, float(int(even_odd >> 16u)) * scale + offset,
               float(int(next_two & 0xffffu)) * scale + offset, float(int(next_two >> 16u)) * scale + offset);

@@ -28,6 +28,8 @@ struct FrameRecord {
   vec3 lens_up;
   uint segments;      // of the shutter (layout/motion.h); 0: it is open for an instant
   uint image_texels;  // of one geometry image
+  float tolerance;    // with levels of detail (layout/detail.h): the width of the cone at `origin` ...
+  float tolerance_spread;  // ... and its spread
 };
 
 CONST uint light_directional = 0u;

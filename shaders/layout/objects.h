@@ -28,7 +28,7 @@ struct ObjectRecord {
   vec3 lo;  // a box that holds all of the surface
   uint first_wide;
   vec3 hi;
-  uint pad0;
+  uint first_detail;  // of its nodes above the leaves (layout/detail.h)
   vec3 step;  // of the grid of its 16-bit boxes, whose base is `lo`
   uint pad1;
 };
@@ -42,7 +42,7 @@ FN ObjectRecord object_record(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
   object.lo = vec3(uintBitsToFloat(b.x), uintBitsToFloat(b.y), uintBitsToFloat(b.z));
   object.first_wide = b.w;
   object.hi = vec3(uintBitsToFloat(c.x), uintBitsToFloat(c.y), uintBitsToFloat(c.z));
-  object.pad0 = c.w;
+  object.first_detail = c.w;
   object.step = vec3(uintBitsToFloat(d.x), uintBitsToFloat(d.y), uintBitsToFloat(d.z));
   object.pad1 = d.w;
   return object;

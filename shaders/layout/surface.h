@@ -3,7 +3,7 @@
 // Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
 // those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
 // in both. So do numbers that are the same in the whole dispatch: `sources`, 3 where the atlas has mapped
-// charts, else 1; `layered`, 1 where a material may reflect in another way than metallic-roughness says, be
+// charts, `detailed_sources` with levels of detail (layout/detail.h), else 1; `layered`, 1 where a material may reflect in another way than metallic-roughness says, be
 // transparent or coated (where that is 0 the Surface is a plain one whatever the material says); `instanced`,
 // 1 where an instance puts what was hit into the world (layout/objects.h); and `segments`, not 0 where the
 // surface moves while the shutter is open (layout/motion.h).
@@ -19,12 +19,14 @@ struct SurfaceSource {
 
 // Where a hit lies on the input. On a mapped chart it has three sources, its texels, that with the greatest
 // share first (of equal ones the first texel); on others one, and others of no share where there must be
-// three.
+// three. With levels of detail a texel that has slid adds its parent.
 struct SurfacePoint {
   uvec1 texel[3];  // of the corners of the triangle that was hit
   vec1 weight[3];
-  vec3 corner[3];           // their positions
-  SurfaceSource source[3];  // those from `sources` on are not set
+  vec3 corner[3];     // their positions
+  uvec1 parent[3];    // with levels of detail: the texels that they slide to ...
+  vec1 collapse[3];   // ... and how far they have
+  SurfaceSource source[detailed_sources];  // those from `sources` on are not set
   uvec1 part;               // of the first source
   Moment moment;            // at which it was hit; not set where nothing moves
   vec4 to_world[3];         // rows of the instance's matrix; not set without instances
@@ -111,10 +113,50 @@ FN vec3 normal_at(uvec1 texel, IN(Moment) moment) {
   return moved3(as_vec3(bits), as_vec3(next), moment.fraction);
 }
 
-FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Moment) moment) {
+// How much coarser than the texels the surface is there: the level of the quad, and how far its corners have
+// slid to the next.
+FN vec1 detail_of(uvec1 primitive, IN(SurfacePoint) point) {
+  if (sources != detailed_sources) return vec1(0.0f);
+  vec1 slid_on = point.collapse[0] * point.weight[0] + point.collapse[1] * point.weight[1] +
+                 point.collapse[2] * point.weight[2];
+  return vec1(ivec1(primitive_level(primitive))) + slid_on;
+}
+
+// Its corners slide, and what is found there is a mean of what both texels say.
+FN void slide_corners(INOUT(SurfacePoint) point, uvec1 level, uvec1 kind, IN(Tolerance) tolerance) {
+  bvec1 plain = level == 0u && kind != chart_mapped;
+  for (int i = 0; i < 3; ++i) {
+    uvec1 radius;
+    LOAD1(point.parent[i], collapses, 2u * point.texel[i]);
+    LOAD1(radius, collapses, 2u * point.texel[i] + 1u);
+    point.collapse[i] = collapse_of(tolerance_at(tolerance, point.corner[i]), uintBitsToFloat(radius));
+    plain = plain && point.collapse[i] == 0.0f;
+    point.corner[i] = slid(point.corner[i], geometry_at(point.parent[i], point.moment), point.collapse[i]);
+  }
+  WHERE(!plain) {
+    for (int i = 0; i < 3; ++i) {
+      uvec4 own;
+      uvec4 other;
+      LOAD4(own, texel_map, point.texel[i]);
+      LOAD4(other, texel_map, point.parent[i]);
+      vec1 share = point.weight[i] * point.collapse[i];
+      SET(point.source[i].triangle, own.x);
+      SET(point.source[i].b1, uintBitsToFloat(own.y));
+      SET(point.source[i].b2, uintBitsToFloat(own.z));
+      SET(point.source[i].share, point.weight[i] - share);
+      SET(point.source[3 + i].triangle, other.x);
+      SET(point.source[3 + i].b1, uintBitsToFloat(other.y));
+      SET(point.source[3 + i].b2, uintBitsToFloat(other.z));
+      SET(point.source[3 + i].share, share);
+    }
+  }
+}
+
+FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Moment) moment,
+                       IN(Tolerance) tolerance) {
   SurfacePoint point;
   point.moment = moment;
-  uvec1 texel = primitive >> 1u;
+  uvec1 texel = sources == detailed_sources ? primitive_texel(primitive) : primitive >> 1u;
   bvec1 first_half = (primitive & 1u) == 0u;
   uvec4 bits;
   LOAD4(bits, geometry, texel);
@@ -123,9 +165,18 @@ FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Momen
   LOAD4(record0, charts, 2u * (bits.w - 1u));
   LOAD4(record1, charts, 2u * (bits.w - 1u) + 1u);
   ChartRecord chart = chart_record(record0, record1);
-  point.texel[0] = select(first_half, texel, texel + chart.width + 1u);
-  point.texel[1] = select(first_half, texel + 1u, texel + chart.width);
-  point.texel[2] = select(first_half, texel + chart.width, texel + 1u);
+  uvec1 across = uvec1(1u);
+  uvec1 along = chart.width;
+  if (sources == detailed_sources) {
+    uvec1 row = (texel - chart.first_texel) / chart.width;
+    uvec1 column = texel - chart.first_texel - row * chart.width;
+    uvec1 size = uvec1(1u) << primitive_level(primitive);
+    across = select(column + size < chart.width, size, chart.width - 1u - column);
+    along = chart.width * select(row + size < chart.height, size, chart.height - 1u - row);
+  }
+  point.texel[0] = select(first_half, texel, texel + along + across);
+  point.texel[1] = select(first_half, texel + across, texel + along);
+  point.texel[2] = select(first_half, texel + along, texel + across);
   point.weight[0] = 1.0f - u - v;
   point.weight[1] = u;
   point.weight[2] = v;
@@ -164,23 +215,26 @@ FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Momen
         uintBitsToFloat(s0.z) * point.weight[0] + uintBitsToFloat(s1.z) * u + uintBitsToFloat(s2.z) * v);
   }
   if (sources != 1u) {
-    for (int i = 1; i < 3; ++i) {
+    for (uint i = 1u; i < sources; ++i) {
       point.source[i].triangle = point.source[0].triangle;
       point.source[i].b1 = point.source[0].b1;
       point.source[i].b2 = point.source[0].b2;
       point.source[i].share = 0.0f;
     }
-    WHERE(chart.kind == chart_mapped) {
-      for (int i = 0; i < 3; ++i) {
-        LOAD4(bits, texel_map, point.texel[i]);
-        SET(point.source[i].triangle, bits.x);
-        SET(point.source[i].b1, uintBitsToFloat(bits.y));
-        SET(point.source[i].b2, uintBitsToFloat(bits.z));
-        SET(point.source[i].share, point.weight[i]);
+    if (sources == detailed_sources) {
+      slide_corners(point, primitive_level(primitive), chart.kind, tolerance);
+    } else {
+      WHERE(chart.kind == chart_mapped) {
+        for (int i = 0; i < 3; ++i) {
+          LOAD4(bits, texel_map, point.texel[i]);
+          SET(point.source[i].triangle, bits.x);
+          SET(point.source[i].b1, uintBitsToFloat(bits.y));
+          SET(point.source[i].b2, uintBitsToFloat(bits.z));
+          SET(point.source[i].share, point.weight[i]);
+        }
       }
     }
-    put_greater_first(point.source[0], point.source[1]);
-    put_greater_first(point.source[0], point.source[2]);
+    for (uint i = 1u; i < sources; ++i) put_greater_first(point.source[0], point.source[i]);
   }
   point.part = find_vertices(point.source[0]);
   for (uint k = 1u; k < sources; ++k) find_vertices(point.source[k]);
@@ -369,6 +423,13 @@ FN void add_layers(INOUT(Surface) s, IN(MaterialRecord) material, IN(SurfacePoin
   }
 }
 
+FN vec3 corner_normal(IN(SurfacePoint) point, int i) {
+  vec3 own = normal_at(point.texel[i], point.moment);
+  if (sources != detailed_sources) return own;
+  vec3 other = normal_at(point.parent[i], point.moment);
+  return select(point.collapse[i] == 0.0f, own, mix3(own, other, point.collapse[i]));
+}
+
 FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 from_viewer) {
   Surface s;
   vec4 uvs = texcoords_at(point);
@@ -384,9 +445,9 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
   s.view = from_viewer * -1.0f;
   vec3 across = cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]);
   s.geometric = normalize_or(across, s.view);
-  vec3 n0 = normal_at(point.texel[0], point.moment);
-  vec3 n1 = normal_at(point.texel[1], point.moment);
-  vec3 n2 = normal_at(point.texel[2], point.moment);
+  vec3 n0 = corner_normal(point, 0);
+  vec3 n1 = corner_normal(point, 1);
+  vec3 n2 = corner_normal(point, 2);
   s.normal = n0 * point.weight[0] + n1 * point.weight[1] + n2 * point.weight[2];
   if (instanced != 0u) s.normal = placed_normal(point, s.normal);
   s.normal = normalize_or(s.normal, s.geometric);

@@ -194,6 +194,10 @@ struct TracePush {
                 // iterations: with 8 lanes and two nested loops a budget of 4,000 can never reach that.
   uint image_texels;  // where something moves (layout/motion.h): of a geometry image
   uint objects;       // the same: hierarchies of a segment
+  uint scattered;     // with levels of detail (layout/detail.h): 1 where rays have a second cone each
+  vec3 camera;        // and the first cone, that all rays have
+  float camera_width;
+  float camera_spread;
 };
 
 LODESTONE_LAYOUT_END

@@ -30,6 +30,7 @@ struct BenchOptions {
   SceneOptions scene;
   PoseOptions pose;
   uint32_t relaxation_sweeps = 0;
+  float pixels_of_error = 0;
   PictureOptions picture;
   DeviceOptions device;
   double time = 0;
@@ -131,6 +132,7 @@ TraversalCost bench_traversal(const BenchOptions& options, const PreparedScene& 
   settings.width = options.picture.size.width;
   settings.height = options.picture.size.height;
   settings.relaxation_sweeps = options.relaxation_sweeps;
+  settings.pixels_of_error = options.pixels_of_error;
   settings.traversal = parse_traversal("--traversal", traversal);
   render::Renderer renderer(backend, prepared.scene, prepared.assembly, prepared.atlas, settings);
   TraversalCost cost;
@@ -225,6 +227,7 @@ void add_bench_command(CLI::App& app, std::function<int()>& run) {
   add_scene_argument(*command, options.scene);
   add_atlas_options(*command, options.scene);
   add_relaxation_option(*command, options.scene, options.relaxation_sweeps);
+  add_detail_option(*command, options.scene, options.pixels_of_error);
   add_value(*command, "--tracer", "LIST",
             fmt::format("Tracers: {} (default: all)", join_names(tracer_names())),
             [](const std::string& text) {

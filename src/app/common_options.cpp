@@ -22,6 +22,7 @@ namespace {
 constexpr uint32_t max_spp = 65536;
 constexpr uint32_t max_sweeps = 1024;
 constexpr uint32_t max_bounces = 1024;
+constexpr double most_pixels_of_error = 1000;
 constexpr uint32_t max_threads = 4096;
 constexpr uint32_t max_resolution = 32768;  // of all charts together: 2^30 texels
 
@@ -305,6 +306,17 @@ void add_camera_options(CLI::App& app, render::CameraChoice& camera) {
   add_place(app, "--camera-at",
             "What it looks at (default with --camera-from: the middle of all that the animation reaches)",
             camera.at);
+}
+
+void add_detail_option(CLI::App& app, SceneOptions& scene, float& pixels_of_error) {
+  add_value(app, "--pixels-of-error", "X",
+            fmt::format("Levels of detail: rays may see a coarser surface, one that looks at most so many "
+                        "pixels away from the finest (0 to {}, default: 0, always the finest)",
+                        most_pixels_of_error),
+            [&](const std::string& text) {
+              pixels_of_error = float(parse_number("--pixels-of-error", text, 0, most_pixels_of_error));
+              if (pixels_of_error > 0) scene.one_object = "--pixels-of-error";
+            });
 }
 
 void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps) {

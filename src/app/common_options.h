@@ -91,6 +91,8 @@ struct PictureOptions {
 };
 // --relaxation-sweeps; where there are some, the atlas is to have the maps that they need.
 void add_relaxation_option(CLI::App& app, SceneOptions& scene, uint32_t& sweeps);
+// --pixels-of-error; where there are some, the scene is to be one object.
+void add_detail_option(CLI::App& app, SceneOptions& scene, float& pixels_of_error);
 void add_size_option(CLI::App& app, Size& size);
 void add_seed_option(CLI::App& app, uint32_t& seed);
 // --camera --orbit --fov --camera-from --camera-at

@@ -38,6 +38,7 @@ struct ParityOptions {
   FrameOptions frames;
   PictureOptions picture = small_picture();
   uint32_t relaxation_sweeps = 0;
+  float pixels_of_error = 0;
   ShutterOptions shutter;
   DeviceOptions device;
   std::optional<render::Fault> fault;
@@ -86,6 +87,7 @@ std::vector<std::string> pass_names(const std::vector<PassDifference>& differenc
 void render_frames(const ParityOptions& options, const PreparedScene& prepared, render::Backend& backend) {
   render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
+  settings.pixels_of_error = options.pixels_of_error;
   settings.shutter_segments = options.shutter.settled_segments();
   settings.aovs = aov_names();
   scene::Bounds bounds;
@@ -164,6 +166,7 @@ void add_parity_command(CLI::App& app, std::function<int()>& run) {
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
   add_relaxation_option(*command, options->scene, options->relaxation_sweeps);
+  add_detail_option(*command, options->scene, options->pixels_of_error);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);
   add_shutter_options(*command, options->shutter);

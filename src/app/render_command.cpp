@@ -38,6 +38,7 @@ struct RenderOptions {
   PoseOptions pose;
   FrameOptions frames;
   uint32_t relaxation_sweeps = 0;
+  float pixels_of_error = 0;
   ShutterOptions shutter;
   PictureOptions picture;
   DeviceOptions device;
@@ -95,6 +96,7 @@ OutputPattern check(const RenderOptions& options) {
 render::Settings settings_of(const RenderOptions& options) {
   render::Settings settings = picture_settings(options.picture);
   settings.relaxation_sweeps = options.relaxation_sweeps;
+  settings.pixels_of_error = options.pixels_of_error;
   settings.shutter_segments = options.shutter.settled_segments();
   settings.view = options.view;
   settings.exposure = options.exposure;
@@ -196,6 +198,7 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
     text["shutter"] = fmt::format("{}", options_.shutter.open / options_.frames.fps);  // seconds
     text["shutter_segments"] = std::to_string(segments);
   }
+  if (options_.pixels_of_error > 0) text["pixels_of_error"] = fmt::format("{}", options_.pixels_of_error);
   if (options_.picture.denoise) text["denoise"] = render::denoise_description();
   if (const std::optional<scene::Environment>& environment = prepared_.scene.environment) {
     text["environment"] = environment->file;
@@ -329,6 +332,7 @@ void add_render_command(CLI::App& app, std::function<int()>& run) {
   add_tracer_option(*command);
   add_atlas_options(*command, options->scene);
   add_relaxation_option(*command, options->scene, options->relaxation_sweeps);
+  add_detail_option(*command, options->scene, options->pixels_of_error);
   add_environment_options(*command, options->scene);
   add_picture_options(*command, options->picture);
   add_frame_options(*command, options->frames);

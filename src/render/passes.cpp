@@ -3,6 +3,7 @@
 
 #include "lodestone/layout/boxes.h"
 #include "lodestone/layout/denoise.h"
+#include "lodestone/layout/detail_nodes.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/objects.h"
@@ -63,11 +64,17 @@ constexpr Binding camera_bindings[] = {
     "times", word, read                             \
   }
 
+#define DETAIL_BINDINGS                                                                  \
+  {"collapses", word, read}, {"node_details", quad, read}, {"coarse_quads", quad, read}, { \
+    "cones", quad, read                                                                  \
+  }
+
 constexpr Binding trace_threaded_bindings[] = {
-    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}, OBJECT_BINDINGS};
+    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}, OBJECT_BINDINGS,
+    DETAIL_BINDINGS};
 
 constexpr Binding trace_octant_bindings[] = {
-    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, OBJECT_BINDINGS};
+    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
 
 // The CPU's traversal.
 constexpr Binding trace_wide_bindings[] = {RAY_BINDINGS,
@@ -75,24 +82,42 @@ constexpr Binding trace_wide_bindings[] = {RAY_BINDINGS,
                                            {"nodes_hi", quad, read},
                                            {"wide_nodes", structs, read},
                                            {"leaf_map", word, read},
-                                           OBJECT_BINDINGS};
+                                           OBJECT_BINDINGS,
+                                           DETAIL_BINDINGS};
 
 constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
                                             {"boxes", quad, read},
                                             {"leaf_map", word, read},
                                             {"extents", structs, read},
                                             {"trails", quad, read_write},
-                                            OBJECT_BINDINGS};
+                                            OBJECT_BINDINGS,
+                                            DETAIL_BINDINGS};
 
 // Its leaf map is read in pairs of slots.
 constexpr Binding trace_tile_bindings[] = {RAY_BINDINGS,
                                            {"boxes", quad, read},
                                            {"leaf_map", quad, read},
                                            {"extents", structs, read},
-                                           OBJECT_BINDINGS};
+                                           OBJECT_BINDINGS,
+                                           DETAIL_BINDINGS};
 
+#undef DETAIL_BINDINGS
 #undef OBJECT_BINDINGS
 #undef RAY_BINDINGS
+
+constexpr Binding detail_begin_bindings[] = {{"collapses", word, read}, {"radii", structs, write}};
+
+#define COARSE_NODE_BINDINGS                                                                               \
+  {"coarse_nodes", quad, read}, {"geometry", quad, read}, {"collapses", word, read}, {"points", word, read}, \
+      {"node_details", quad, read_write}, {                                                                \
+    "radii", structs, read_write                                                                           \
+  }
+constexpr Binding detail_measure_bindings[] = {COARSE_NODE_BINDINGS};
+constexpr Binding detail_settle_bindings[] = {COARSE_NODE_BINDINGS, {"coarse_order", word, read}};
+#undef COARSE_NODE_BINDINGS
+
+constexpr Binding detail_end_bindings[] = {
+    {"collapses", word, read_write}, {"points", word, read}, {"radii", structs, read}};
 
 constexpr Binding place_instances_bindings[] = {{"objects", quad, read},
                                                 {"instances", quad, read},
@@ -160,8 +185,8 @@ constexpr Binding wide_nodes_bindings[] = {
       {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
       {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                      \
       {"materials", structs, read}, {"textures", structs, read}, {"frame", structs, read},               \
-      {"hit_instances", word, read}, {"instances", quad, read}, {                                        \
-    "times", word, read                                                                                  \
+      {"ray_words", word, read}, {"instances", quad, read}, {                                            \
+    "collapses", word, read                                                                              \
   }
 
 #define ENVIRONMENT_BINDINGS                                            \
@@ -253,6 +278,13 @@ const PassDecl boxes_blocks{"bounds", "geometry_image/boxes_blocks", boxes_block
 const PassDecl boxes_leaves{"bounds", "geometry_image/boxes_leaves", boxes_leaves_bindings,
                             sizeof(BoxesPush)};
 const PassDecl boxes{"bounds", "geometry_image/boxes", boxes_bindings, sizeof(BoxesPush)};
+const PassDecl detail_begin{"detail", "geometry_image/detail_begin", detail_begin_bindings,
+                            sizeof(CountPush)};
+const PassDecl detail_measure{"detail", "geometry_image/detail_measure", detail_measure_bindings,
+                              sizeof(DetailPush)};
+const PassDecl detail_settle{"detail", "geometry_image/detail_settle", detail_settle_bindings,
+                             sizeof(DetailPush)};
+const PassDecl detail_end{"detail", "geometry_image/detail_end", detail_end_bindings, sizeof(CountPush)};
 const PassDecl place_instances{"upper", "geometry_image/place_instances", place_instances_bindings,
                                sizeof(PlacePush)};
 const PassDecl sort_keys{"upper", "geometry_image/sort_keys", sort_keys_bindings, sizeof(SortPush)};

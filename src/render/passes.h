@@ -9,6 +9,7 @@ namespace lodestone::render::passes {
 
 extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rasterise, bounds_leaves, bounds,
     wide_nodes, boxes_blocks, boxes_leaves, boxes;
+extern const PassDecl detail_begin, detail_measure, detail_settle, detail_end;
 extern const PassDecl place_instances, sort_keys, upper_leaves, upper_boxes;
 extern const PassDecl enter_instances, scan_blocks, gather_rays, local_rays;
 extern const PassDecl occlude_enter, occlude_scan, occlude_gather, occlude_local;

@@ -45,6 +45,16 @@ bool mostly_common_origins(const std::vector<glm::vec4>& rays) {
   return 2 * together > runs;
 }
 
+std::optional<Detail> make_detail(Backend& device, const scene::Assembly& assembly,
+                                  const geometry_image::Atlas& atlas, const Settings& settings) {
+  if (settings.pixels_of_error == 0) return {};
+  if (assembly.has_instances())
+    fail(ExitCode::usage, "--pixels-of-error", "is not for instances; give --instancing off");
+  if (settings.shutter_segments > 0)
+    fail(ExitCode::usage, "--pixels-of-error", "does not go together with --shutter; give one of them");
+  return std::optional<Detail>(std::in_place, device, assembly, atlas);
+}
+
 }  // namespace
 
 Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -56,8 +66,9 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       settings(settings_in),
       tables(device, scene_in, assembly_in, atlas_in),
       environment(device, scene_in),
+      detail(make_detail(device, assembly_in, atlas_in, settings_in)),
       tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget,
-              settings_in.shutter_segments),
+              settings_in.shutter_segments, detail ? &*detail : nullptr),
       reach(scene_in),
       pose_box(scene_in) {
   check_aovs(settings.aovs);
@@ -147,7 +158,8 @@ void Renderer::State::rasterise(uint32_t first_texel, uint32_t image) {
 }
 
 // blend, relax, rasterise, bounds: everything that follows from the pose.
-void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter) {
+void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter,
+                             const layout::RayCone& camera) {
   const bool moves = settings.shutter_segments > 0;
   if (relaxation || !moves) blend(pose, positions);
   if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
@@ -159,6 +171,8 @@ void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>&
     ++first;
   }
   rasterise(first_texel, 0);
+  if (detail) detail->build(geometry, steepest_cone(camera));
+  tracing.set_camera(camera);
   const std::vector<scene::Bounds> boxes = object_boxes(pose);
   tracing.build(geometry, boxes, first);
   if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, tracing.objects());
@@ -250,6 +264,9 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
   }
   record.segments = settings.shutter_segments;
   record.image_texels = static_cast<uint32_t>(atlas.texel_map.size());
+  const layout::RayCone cone = camera_cone(view, settings.width, settings.height, settings.pixels_of_error);
+  record.tolerance = cone.width;
+  record.tolerance_spread = cone.spread;
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
   if (record.segments > 0) upload_cameras(record, shutter);
 }
@@ -343,7 +360,9 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
   const uint32_t segments = s.settings.shutter_segments;
   if (shutter.size() != (segments > 0 ? segments + 1 : 0))
     fail(ExitCode::usage, "shutter", "{} moments are not the ends of {} segments", shutter.size(), segments);
-  s.update(pose, shutter);
+  const layout::RayCone camera =
+      camera_cone(view, s.settings.width, s.settings.height, s.settings.pixels_of_error);
+  s.update(pose, shutter, camera);
   s.begin_frame(pose, view, shutter);
   const uint32_t total = s.total_rays();
   for (uint32_t first = 0; first < total; first += s.batch_rays) {
@@ -382,7 +401,7 @@ Traversal Renderer::traversal() const {
   return state_->tracing.traversal();
 }
 void Renderer::update(const scene::Pose& pose) {
-  state_->update(pose, {});
+  state_->update(pose, {}, {});
 }
 
 std::vector<glm::uvec4> Renderer::texel_map() {

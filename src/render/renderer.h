@@ -54,6 +54,8 @@ struct Settings {
   // Motion blur: the equal stretches of the time that the shutter is open in which everything moves along
   // straight lines (layout/motion.h), at most most_segments; 0: it is open for an instant.
   uint32_t shutter_segments = 0;
+  // Levels of detail (layout/detail.h): the error, in pixels, that rays tolerate; 0: none, every quad counts.
+  float pixels_of_error = 0;
 };
 
 // A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y
@@ -103,7 +105,7 @@ class Renderer {
  public:
   // Uploads everything static and runs `links`. The scene, assembly and atlas must outlive the renderer.
   // Throws Error(usage) where sweeps are wanted of mapped charts whose maps the atlas does not have, and
-  // where something is to move of which the assembly has instances.
+  // where something is to move, or get coarser, of which the assembly has instances.
   Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
            const geometry_image::Atlas& atlas, const Settings& settings);
   ~Renderer();

@@ -9,6 +9,7 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/recursion.h"
 #include "lodestone/render/denoiser.h"
+#include "lodestone/render/detail.h"
 #include "lodestone/render/environment_tables.h"
 #include "lodestone/render/instances.h"
 #include "lodestone/render/relaxation.h"
@@ -28,6 +29,7 @@ struct Renderer::State {
   Settings settings;
   SceneTables tables;
   EnvironmentTables environment;
+  std::optional<Detail> detail;
   Tracing tracing;
   scene::PoseReach reach;
   scene::PoseBox pose_box;
@@ -65,29 +67,33 @@ struct Renderer::State {
         rays.hits.id(), geometry.id(), normal_map.id(), texel_map(), tables.triangles.id(), positions.id(),
         normals.id(), tangents.id(), tables.texcoords.id(), tables.images.id(), tables.srgb_table.id(),
         tables.charts.id(), tables.parts.id(), tables.materials.id(), tables.textures.id(), frame.id(),
-        // Without instances nothing reads them; any words and quads will do.
-        instances ? rays.instances.id() : rays.steps.id(),
+        // What the constants leave out nothing reads; any words and quads will do.
+        instances                       ? rays.instances.id()
+        : settings.shutter_segments > 0 ? times_of(rays).id()
+                                        : rays.steps.id(),
         instances ? instances->records().id() : geometry.id(),
-        settings.shutter_segments > 0 ? times_of(rays).id() : rays.steps.id()};
+        detail ? detail->collapses().id() : rays.steps.id()};
     ids.insert(ids.end(), more);
     return ids;
   }
 
   // Of the passes that read them.
   std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none) const {
-    return {tables.sources, tables.layered,      environment.map,
+    return {sources(), tables.layered,      environment.map,
             recursion,      instances ? 1u : 0u, settings.shutter_segments};
   }
 
   // Of those that take every surface for a plain one.
   std::array<uint32_t, pass_constants> plain_constants() const {
-    return {tables.sources, 0, 0, 0, instances ? 1u : 0u, settings.shutter_segments};
+    return {sources(), 0, 0, 0, instances ? 1u : 0u, settings.shutter_segments};
   }
 
   // A shadow ray's time is that of the ray it comes from.
   const Buffer& times_of(const RayBuffers& rays) const {
     return &rays == &shadow ? primary.times : rays.times;
   }
+
+  uint32_t sources() const { return detail ? layout::detailed_sources : tables.sources; }
 
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
 
@@ -97,7 +103,7 @@ struct Renderer::State {
   void prepare_relaxation();
   void blend(const scene::Pose& pose, const Buffer& blended_positions);
   void rasterise(uint32_t first_texel, uint32_t image);
-  void update(const scene::Pose& pose, const std::vector<Moment>& shutter);
+  void update(const scene::Pose& pose, const std::vector<Moment>& shutter, const layout::RayCone& camera);
   void update_moving(const scene::Pose& pose, const std::vector<Moment>& shutter);
   float find_focus(const View& view);
   void begin_frame(const scene::Pose& pose, const View& view, const std::vector<Moment>& shutter);

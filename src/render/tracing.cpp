@@ -9,6 +9,7 @@
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/tile.h"
 #include "lodestone/render/box_levels.h"
+#include "lodestone/render/detail.h"
 #include "lodestone/render/leaf_blocks.h"
 #include "lodestone/render/passes.h"
 #include "lodestone/render/scene_tables.h"
@@ -16,8 +17,8 @@
 namespace lodestone::render {
 namespace {
 
-// `one_tree`: for all rays.
-Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_tree) {
+// `one_tree`: for all rays, at full resolution.
+Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_tree, bool detailed) {
   const bool shuffles =
       std::find(device.lacks.begin(), device.lacks.end(), "subgroup shuffles") == device.lacks.end();
   const bool tiles = device.subgroup_size == layout::tile_lanes && shuffles;
@@ -27,21 +28,26 @@ Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_
          device.name);
   }
   if (wanted == Traversal::automatic) wanted = tiles ? Traversal::tile : Traversal::wide;
-  return wanted == Traversal::tile && !one_tree ? Traversal::wide : wanted;
+  if (wanted == Traversal::tile && !one_tree) wanted = Traversal::wide;
+  if (wanted == Traversal::wide && detailed && device.kind == "cpu") wanted = Traversal::octant;
+  return wanted;
 }
 
 }  // namespace
 
 Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map,
-                 Traversal traversal, uint32_t loop_budget, uint32_t segments)
+                 Traversal traversal, uint32_t loop_budget, uint32_t segments, const Detail* detail)
     : backend_(backend),
       leaf_map_(leaf_map),
       on_cpu_(backend.info().kind == "cpu"),
-      traversal_(choose_traversal(backend.info(), traversal, atlas.objects.size() == 1 && segments == 0)),
+      traversal_(choose_traversal(backend.info(), traversal,
+                                  atlas.objects.size() == 1 && segments == 0 && detail == nullptr,
+                                  detail != nullptr)),
       loop_budget_(loop_budget),
       segments_(segments),
       objects_a_segment_(static_cast<uint32_t>(atlas.objects.size())),
       image_texels_(static_cast<uint32_t>(atlas.texel_map.size())),
+      detail_(detail),
       pending_(backend, {"pending", 1, 4}) {
   place_trees(atlas);
   records_.resize(trees_.size());
@@ -121,6 +127,7 @@ void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& bo
     record.first_slot = tree.first_slot;
     record.first_wide = tree.first_wide;
     record.depth = tree.levels.depth();
+    record.first_detail = detail_ != nullptr ? detail_->first_node(i % objects_a_segment_) : 0;
     record.slots = tree.levels.slots();
     record.lo = boxes[i].lo;
     record.hi = boxes[i].hi;
@@ -217,11 +224,28 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
                                    rays.states.id(), rays.steps.id(), pending_.id()};
   const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u,
-                                                       roots != nullptr ? 1u : 0u, segments_};
-  layout::TracePush push{count, resume ? 1u : 0u, loop_budget_, image_texels_, objects_a_segment_};
-  // Without roots or times nothing reads them; any words will do.
-  const std::array<BufferId, 3> of_objects = {objects_.id(), roots != nullptr ? roots->id() : rays.steps.id(),
-                                              segments_ > 0 ? query.times->id() : rays.steps.id()};
+                                                       roots != nullptr ? 1u : 0u, segments_,
+                                                       detail_ != nullptr ? 1u : 0u};
+  const bool scattered = detail_ != nullptr && query.cones != nullptr;
+  layout::TracePush push{count,
+                         resume ? 1u : 0u,
+                         loop_budget_,
+                         image_texels_,
+                         objects_a_segment_,
+                         scattered ? 1u : 0u,
+                         camera_.apex,
+                         camera_.width,
+                         camera_.spread};
+  // What the constants leave out nothing reads; any words and quads will do.
+  std::vector<BufferId> of_objects = {objects_.id(), roots != nullptr ? roots->id() : rays.steps.id(),
+                                      segments_ > 0 ? query.times->id() : rays.steps.id()};
+  if (detail_ != nullptr) {
+    of_objects.insert(of_objects.end(),
+                      {detail_->collapses().id(), detail_->node_details().id(), detail_->coarse_quads().id(),
+                       scattered ? query.cones->id() : geometry.id()});
+  } else {
+    of_objects.insert(of_objects.end(), {rays.steps.id(), geometry.id(), geometry.id(), geometry.id()});
+  }
   if (uses_boxes()) {
     buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extents_.id(), rays.trails.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
@@ -247,10 +271,14 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
 
 void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count) {
   const uint32_t tiles = (count + layout::tile_rays - 1) / layout::tile_rays;
+  layout::TracePush push{};
+  push.rays = count;
+  push.budget = loop_budget_;
   run(passes::trace_tile,
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
-       boxes_.id(), leaf_map_.id(), extents_.id(), objects_.id(), rays.steps.id(), rays.steps.id()},
-      layout::TracePush{count, 0, loop_budget_, 0, 0}, tiles * layout::tile_lanes);
+       boxes_.id(), leaf_map_.id(), extents_.id(), objects_.id(), rays.steps.id(), rays.steps.id(),
+       rays.steps.id(), geometry.id(), geometry.id(), geometry.id()},
+      push, tiles * layout::tile_lanes);
 }
 
 bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,

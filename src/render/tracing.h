@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lodestone/geometry_image/atlas.h"
+#include "lodestone/layout/detail.h"
 #include "lodestone/layout/objects.h"
 #include "lodestone/render/backend.h"
 #include "lodestone/render/hierarchy_levels.h"
@@ -46,15 +47,19 @@ struct TraceQuery {
   bool common_origin = false;     // runs of 64 rays start from one point and go nearly the same way
   bool restarted = false;         // only those that `mask` has sent on
   const Buffer* times = nullptr;  // of the rays, where something moves
+  const Buffer* cones = nullptr;  // of rays that have been scattered, where there is detail; null: none has
 };
+
+class Detail;
 
 class Tracing {
  public:
-  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it. With several objects,
-  // and with `segments` of motion (layout/motion.h; 0: nothing moves), `tile` becomes `wide`. Throws
-  // Error(usage) where the device cannot run that traversal.
+  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it, and so must `detail`,
+  // which is null without levels of detail. With several objects, with `segments` of motion
+  // (layout/motion.h; 0: nothing moves) and with detail `tile` becomes `wide`; with detail `wide` becomes
+  // `octant` on the CPU. Throws Error(usage) where the device cannot run that traversal.
   Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map, Traversal traversal,
-          uint32_t loop_budget, uint32_t segments);
+          uint32_t loop_budget, uint32_t segments, const Detail* detail = nullptr);
 
   Traversal traversal() const { return traversal_; }  // what `automatic` became
 
@@ -66,6 +71,9 @@ class Tracing {
   // ray says through which object it goes; null: all go through the first. False: interrupted.
   bool trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
              const Interrupted& interrupted, const Buffer* roots = nullptr);
+
+  // What all rays tolerate from now on, where there is detail (layout/detail.h).
+  void set_camera(const layout::RayCone& camera) { camera_ = camera; }
 
   const Buffer& objects() const { return objects_; }  // layout::ObjectRecord
 
@@ -104,6 +112,8 @@ class Tracing {
   Traversal traversal_;
   uint32_t loop_budget_;
   uint32_t segments_, objects_a_segment_, image_texels_;
+  const Detail* detail_;
+  layout::RayCone camera_{};
   std::vector<Tree> trees_;  // one an object, of each segment
   uint64_t node_count_ = 0, wide_count_ = 0;
   std::vector<layout::ObjectRecord> records_;
