@@ -90,14 +90,14 @@ double total(const std::vector<report::PassSum>& passes) {
   return sum;
 }
 
-void bench_update(const BenchOptions& options, const scene::Pose& pose, render::Backend& backend,
-                  render::Renderer& renderer, TraversalCost& cost) {
+void bench_update(const BenchOptions& options, const scene::Pose& pose, const render::View& view,
+                  render::Backend& backend, render::Renderer& renderer, TraversalCost& cost) {
   std::vector<std::string> names;
   std::vector<std::vector<double>> times;
   std::vector<double> totals;
-  measure(backend, [&] { renderer.update(pose); });  // warms up
+  measure(backend, [&] { renderer.update(pose, &view); });  // warms up
   for (uint32_t repeat = 0; repeat < options.repeats; ++repeat) {
-    const auto passes = measure(backend, [&] { renderer.update(pose); });
+    const auto passes = measure(backend, [&] { renderer.update(pose, &view); });
     times.resize(passes.size());
     names.resize(passes.size());
     for (size_t i = 0; i < passes.size(); ++i) {
@@ -126,8 +126,8 @@ RayCost bench_rays(const BenchOptions& options, const std::string& kind, const R
 }
 
 TraversalCost bench_traversal(const BenchOptions& options, const PreparedScene& prepared,
-                              render::Backend& backend, const std::string& traversal, const Rays& primary,
-                              const Rays& incoherent) {
+                              const render::View& view, render::Backend& backend,
+                              const std::string& traversal, const Rays& primary, const Rays& incoherent) {
   render::Settings settings;
   settings.width = options.picture.size.width;
   settings.height = options.picture.size.height;
@@ -138,7 +138,7 @@ TraversalCost bench_traversal(const BenchOptions& options, const PreparedScene& 
   TraversalCost cost;
   cost.tracer = tracer_names().front();
   cost.traversal = to_string(renderer.traversal());
-  bench_update(options, prepared.pose_at(prepared.wrap(options.time)), backend, renderer, cost);
+  bench_update(options, prepared.pose_at(prepared.wrap(options.time)), view, backend, renderer, cost);
   cost.rays.push_back(bench_rays(options, "primary", primary, backend, renderer));
   cost.rays.push_back(bench_rays(options, "incoherent", incoherent, backend, renderer));
   return cost;
@@ -207,11 +207,12 @@ int run_bench(const BenchOptions& options) {
   const scene::Pose pose = prepared.pose_at(prepared.wrap(options.time));
   scene::Bounds bounds;
   if (options.picture.camera.needs_bounds(prepared.scene)) bounds = prepared.bounds();
-  const Rays primary = primary_rays(view_of(prepared, pose, options.picture, bounds), options.picture.size);
+  const render::View view = view_of(prepared, pose, options.picture, bounds);
+  const Rays primary = primary_rays(view, options.picture.size);
   const Rays incoherent = incoherent_rays(prepared, pose, uint32_t(primary.size() / 2), options.picture.seed);
   std::vector<TraversalCost> costs;
   for (const std::string& traversal : options.traversals)
-    costs.push_back(bench_traversal(options, prepared, *device.backend, traversal, primary, incoherent));
+    costs.push_back(bench_traversal(options, prepared, view, *device.backend, traversal, primary, incoherent));
   const render::DeviceInfo& info = device.backend->info();
   fmt::print(
       "{}", options.json ? json_text(options, prepared, info, costs) : table(options, prepared, info, costs));

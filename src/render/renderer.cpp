@@ -400,8 +400,12 @@ std::vector<PassRecord> Renderer::setup_passes() const {
 Traversal Renderer::traversal() const {
   return state_->tracing.traversal();
 }
-void Renderer::update(const scene::Pose& pose) {
-  state_->update(pose, {}, {});
+void Renderer::update(const scene::Pose& pose, const View* view) {
+  const Settings& settings = state_->settings;
+  state_->update(
+      pose, {},
+      view == nullptr ? layout::RayCone{}
+                      : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error));
 }
 
 std::vector<glm::uvec4> Renderer::texel_map() {

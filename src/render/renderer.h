@@ -122,8 +122,9 @@ class Renderer {
 
   // The pieces of a frame, for benchmarks: blend, relax, rasterise and bounds, and the texel map that they
   // were for; then given rays (two vec4 each: origin and tmin, direction and tmax) against the hierarchy,
-  // closest hit, results t u v primitive. Without motion blur.
-  void update(const scene::Pose& pose);
+  // closest hit, results t u v primitive. Without motion blur. `view`: what levels of detail are for; null:
+  // rays tolerate no error.
+  void update(const scene::Pose& pose, const View* view = nullptr);
   std::vector<glm::uvec4> texel_map();
   void load_rays(const std::vector<glm::vec4>& rays);
   void trace_loaded();
