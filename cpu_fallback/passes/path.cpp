@@ -27,6 +27,7 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
     const vec3 direction = as_vec3(along);
+    this->scattered = push_.vertex != 0;
     const bvec1 alive = !(uintBitsToFloat(along.w) < 0.0f);
     path_ = push_.vertex == 0 ? first_path() : stored_path(this->load_own(paths_));
     added_ = vec4(0.0f, 0.0f, 0.0f, 0.0f);
@@ -50,9 +51,12 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
   }
 
  private:
+  using SurfacePoint = typename SurfaceKernel<Probe, source_count, is_layered>::SurfacePoint;
+
   // What follows from the active invocations' hits.
   HWY_ATTR void scatter(const uvec4& hit, const vec3& direction) {
-    const Surface surface = this->surface_of(hit, direction);
+    const SurfacePoint point = this->locate_hit(hit);
+    const Surface surface = this->surface_of(point, direction);
     const Bsdf bsdf = surface_bsdf(surface, is_layered);
     if (is_layered) {
       const vec3 passed = path_.throughput * transmittance(surface, uintBitsToFloat(hit.x));
@@ -82,6 +86,10 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
     const vec1 side_of_next = select(drawn.through, -1.0f, 1.0f);
     next_ = select(this->active(), leaving_ray(surface, drawn.direction, side_of_next, 1e30f), next_);
     this->add(going_on_, 0, this->active_count());
+    if (this->placing != 2) return;
+    const FrameRecord& frame = this->frames[0];
+    this->store_cone(this->cone_from(
+        point, surface, scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest)));
   }
 
   HWY_ATTR DrawnLight draw_light(const Surface& surface, vec1 choice, vec2 xi) {

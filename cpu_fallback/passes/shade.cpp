@@ -28,6 +28,7 @@ class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_lay
       emitted = this->environment_radiance(direction);
     }
     const uint recursion = this->constant(3);
+    this->scattered = push_.vertex != 0;
     Branch branch = first_branch();
     if (recursion != recursion_none && push_.vertex != 0) branch = stored_branch(this->load_own(paths_));
     vec1 alpha = 0.0f;

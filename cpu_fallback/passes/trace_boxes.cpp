@@ -30,7 +30,8 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
       for (uint32_t budget = this->push_.budget; walk.depth != layout::walk_done && budget != 0; --budget) {
         layout::BoxRay against = box_ray;
         if (this->detailed()) {
-          const uint64_t number = uint64_t(object_.first_detail) + layout::level_base(walk.depth) + walk.index;
+          const uint64_t number =
+              uint64_t(object_.first_detail) + layout::level_base(walk.depth) + walk.index;
           const layout::NodeDetail detail = this->load_detail(number);
           if (layout::is_whole(detail, this->tolerance())) {
             this->count_step(4);

@@ -19,6 +19,11 @@ HWY_ATTR inline Ray select(bvec1 condition, const Ray& yes, const Ray& no) {
           select(condition, yes.direction, no.direction), select(condition, yes.tmax, no.tmax)};
 }
 
+HWY_ATTR inline RayCone select(bvec1 condition, const RayCone& yes, const RayCone& no) {
+  return {select(condition, yes.apex, no.apex), select(condition, yes.width, no.width),
+          select(condition, yes.spread, no.spread)};
+}
+
 // Without `is_layered` both must be plain.
 template <bool is_layered = true>
 HWY_ATTR inline Surface select(bvec1 condition, const Surface& yes, const Surface& no) {
@@ -74,7 +79,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Words ray_words = this->words(16);
   Quads instances = this->quads(17);
   Words collapses = this->words(18);
-  uint32_t instanced = this->constant(4), segments = this->constant(5);
+  uint32_t placing = this->constant(4), instanced = placing & 1, segments = this->constant(5);
 
   static constexpr uint32_t sources = source_count, layered = is_layered ? 1 : 0;
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)
@@ -99,12 +104,25 @@ class SurfaceKernel : public VaryingKernel<Probe> {
     return moment_of(uintBitsToFloat(this->load(ray_words, this->own_index())), segments);
   }
 
-  Tolerance tolerance() {
+  bool scattered = true;  // whether rays have been, before this
+
+  HWY_ATTR Tolerance tolerance() {
     Tolerance t;
     const FrameRecord& frame = frames[0];
     t.camera = {frame.origin, frame.tolerance, frame.tolerance_spread};
     t.scattered = no_cone();
+    if (placing == 2 && scattered)
+      t.scattered = stored_cone(this->load_own(instances, 2), this->load_own(instances, 2, 1));
     return t;
+  }
+
+  // The cone of rays that leave what the active invocations' rays have hit.
+  HWY_ATTR RayCone cone_from(const SurfacePoint& point, const Surface& surface, vec1 spread) {
+    return leaving_cone(point, surface.position, tolerance(), spread);
+  }
+  HWY_ATTR void store_cone(const RayCone& cone) {
+    this->store_own(instances, as_bits(cone.apex, floatBitsToUint(cone.width)), 2);
+    this->store_own(instances, uvec4(floatBitsToUint(cone.spread), 0u, 0u, 0u), 2, 1);
   }
 
   // Of the active invocations' hits.
@@ -136,7 +154,9 @@ class SurfaceKernel : public VaryingKernel<Probe> {
 
   // What the active invocations' rays along `direction` have hit.
   HWY_ATTR Surface surface_of(const uvec4& hit, const vec3& direction) {
-    const SurfacePoint point = locate_hit(hit);
+    return surface_of(locate_hit(hit), direction);
+  }
+  HWY_ATTR Surface surface_of(const SurfacePoint& point, const vec3& direction) {
     Surface surface;
     bool first = true;
     for_each_part(point, [&](const PartRecord&, const MaterialRecord& material) HWY_ATTR {
@@ -150,22 +170,22 @@ class SurfaceKernel : public VaryingKernel<Probe> {
 
 // Defines NAME_block, a BlockFunction (kernel.h), for the pass template PASS. The dispatch's first constant
 // is the second argument of the template: 1, 3 or 6.
-#define LODESTONE_SURFACE_BLOCK_FUNCTION(NAME, PASS)                                                 \
-  template <class Probe>                                                                             \
-  using PASS##OfOne = PASS<Probe, 1>;                                                                \
-  template <class Probe>                                                                             \
-  using PASS##OfThree = PASS<Probe, 3>;                                                              \
-  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_one, PASS##OfOne)                                       \
-  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_three, PASS##OfThree)                                   \
-  template <class Probe>                                                                             \
-  using PASS##OfSix = PASS<Probe, detailed_sources>;                                                 \
-  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_six, PASS##OfSix)                                       \
-  HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end,              \
-                             render::Counters* counters) {                                           \
-    const uint32_t sources = dispatch.constants[0];                                                  \
-    (sources == 1   ? NAME##_of_one_block                                                            \
-     : sources == 3 ? NAME##_of_three_block                                                          \
-                    : NAME##_of_six_block)(dispatch, begin, end, counters);                          \
+#define LODESTONE_SURFACE_BLOCK_FUNCTION(NAME, PASS)                                    \
+  template <class Probe>                                                                \
+  using PASS##OfOne = PASS<Probe, 1>;                                                   \
+  template <class Probe>                                                                \
+  using PASS##OfThree = PASS<Probe, 3>;                                                 \
+  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_one, PASS##OfOne)                          \
+  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_three, PASS##OfThree)                      \
+  template <class Probe>                                                                \
+  using PASS##OfSix = PASS<Probe, detailed_sources>;                                    \
+  LODESTONE_VARYING_BLOCK_FUNCTION(NAME##_of_six, PASS##OfSix)                          \
+  HWY_ATTR void NAME##_block(const CpuDispatch& dispatch, uint32_t begin, uint32_t end, \
+                             render::Counters* counters) {                              \
+    const uint32_t sources = dispatch.constants[0];                                     \
+    (sources == 1   ? NAME##_of_one_block                                               \
+     : sources == 3 ? NAME##_of_three_block                                             \
+                    : NAME##_of_six_block)(dispatch, begin, end, counters);             \
   }
 
 // The same for a pass whose template has a third argument: whether the dispatch's second constant is not 0.

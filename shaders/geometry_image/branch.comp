@@ -3,20 +3,21 @@
 // ends gives its place to the last that waits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define INSTANCES_ACCESS restrict
 #include "geometry_image/surface.glsl"
 #include "layout/path.h"
 #include "layout/recursion.h"
 
 QUADS(19, restrict, rays);
 QUADS(20, restrict, paths);
-QUADS(21, restrict, branches);  // three a ray that waits: its two, and a Branch
+QUADS(21, restrict, branches);  // three a ray that waits: its two, and a Branch; two more with its cone
 STRUCTS(22, restrict, uint, going_on);
 COUNTERS(23)
 PUSH(PathPush, push);
 
 layout(constant_id = 5) const uint recursion = recursion_specular;
 
-uint branch_place(uint index, uint slot) { return 3u * (slot * push.rays + index); }
+uint branch_place(uint index, uint slot) { return (placing == 2u ? 5u : 3u) * (slot * push.rays + index); }
 
 void main() {
   uint index = invocation();
@@ -33,6 +34,8 @@ void main() {
     branch = stored_branch(stored);
   }
   Ray next = no_ray();
+  RayCone cone = no_cone();
+  scattered = push.vertex != 0u;
   if (!(uintBitsToFloat(along.w) < 0.0) && hit.w != no_index && branch.depth < push.last_vertex) {
     SurfacePoint point = locate_hit(index, hit);
     MaterialRecord material = materials[parts[point.part].material];
@@ -53,6 +56,10 @@ void main() {
       branch.throughput = flush_lost3(branch.throughput * drawn.weight);
       if (!(max_component(branch.throughput) < smallest_throughput))
         next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
+      if (placing == 2u) {
+        float spread = scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest);
+        cone = leaving_cone(point, surface.position, tolerance_of(index), spread);
+      }
     } else {
       MirrorRays two = mirror_rays(bsdf, surface);
       vec3 mirrored = flush_lost3(branch.throughput * two.mirrored_weight);
@@ -60,6 +67,8 @@ void main() {
       bool mirrors = !(max_component(mirrored) < smallest_throughput);
       bool passes = !(max_component(passed) < smallest_throughput);
       Ray through = leaving_ray(surface, two.passed, -1.0, 1e30);
+      if (placing == 2u)
+        cone = leaving_cone(point, surface.position, tolerance_of(index), frames[0].tolerance_spread);
       if (mirrors && passes) {
         uint place = branch_place(index, branch.left);
         Branch waiting = branch;
@@ -67,6 +76,7 @@ void main() {
         STORE4(branches, place, as_bits(through.origin, floatBitsToUint(through.tmin)));
         STORE4(branches, place + 1u, as_bits(through.direction, floatBitsToUint(through.tmax)));
         STORE4(branches, place + 2u, branch_bits(waiting));
+        if (placing == 2u) STORE_CONE(branches, place + 3u, cone);
         branch.left += 1u;
       }
       branch.throughput = mirrors ? mirrored : passed;
@@ -84,6 +94,11 @@ void main() {
     LOAD4(to, branches, place + 1u);
     LOAD4(stored, branches, place + 2u);
     next = stored_ray(from, to);
+    if (placing == 2u) {
+      LOAD4(from, branches, place + 3u);
+      LOAD4(to, branches, place + 4u);
+      cone = stored_cone(from, to);
+    }
     branch = stored_branch(stored);
     branch.left = left;
   }
@@ -91,5 +106,6 @@ void main() {
   STORE4(rays, 2u * index, as_bits(next.origin, floatBitsToUint(next.tmin)));
   STORE4(rays, 2u * index + 1u, as_bits(next.direction, floatBitsToUint(next.tmax)));
   STORE4(paths, index, branch_bits(branch));
+  if (placing == 2u) STORE_CONE(instances, 2u * index, cone);
   flush_counters();
 }

@@ -2,6 +2,7 @@
 // One vertex of each path: what its ray met adds to the pixel, a shadow ray to one light, and the ray that goes on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define INSTANCES_ACCESS restrict
 #include "geometry_image/surface.glsl"
 #include "layout/path.h"
 
@@ -66,6 +67,7 @@ void main() {
   uvec4 contribution = uvec4(0u);
   Ray shadow = no_ray();
   Ray next = no_ray();
+  scattered = push.vertex != 0u;
   if (alive && hit.w == no_index) {
     float density = environment_pdf(direction) * float(push.sky_lights) / float(push.lights);
     added = vec4(path.throughput * environment_radiance(direction) * sky_weight(path, density), 0.0);
@@ -100,6 +102,11 @@ void main() {
     if (push.vertex < push.last_vertex && max_component(path.throughput) > 0.0) {
       next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
       atomicAdd(going_on[0], 1u);
+      if (placing == 2u) {
+        float spread = scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest);
+        RayCone cone = leaving_cone(point, surface.position, tolerance_of(index), spread);
+        STORE_CONE(instances, 2u * index, cone);
+      }
     }
   }
   store_ray(index, next);

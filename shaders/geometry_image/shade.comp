@@ -37,6 +37,7 @@ void main() {
   vec3 emitted;
   float alpha = 0.0;
   Branch branch = first_branch();
+  scattered = push.vertex != 0u;
   if (recursion != recursion_none && push.vertex != 0u) {
     uvec4 stored;
     LOAD4(stored, paths, index);

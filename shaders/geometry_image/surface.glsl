@@ -23,12 +23,17 @@ STRUCTS(13, readonly, MaterialRecord, materials);
 STRUCTS(14, readonly, TextureRecord, textures);
 STRUCTS(15, readonly, FrameRecord, frames);
 WORDS(16, readonly, ray_words);  // of each ray the instance that it hit, or its time
-QUADS(17, readonly, instances);
+// Instances; or with levels of detail the cones of the batch's rays that have been scattered, two quads each.
+#ifndef INSTANCES_ACCESS
+#define INSTANCES_ACCESS readonly
+#endif
+QUADS(17, INSTANCES_ACCESS, instances);
 WORDS(18, readonly, collapses);
 
 layout(constant_id = 2) const uint sources = 1u;
 layout(constant_id = 3) const uint layered = 0u;
-layout(constant_id = 6) const uint instanced = 0u;
+layout(constant_id = 6) const uint placing = 0u;  // what slot 17 has: 1 instances, 2 cones
+const uint instanced = placing & 1u;
 layout(constant_id = 7) const uint segments = 0u;
 
 #define WHERE(condition) if (condition)
@@ -55,6 +60,8 @@ Moment moment_at(uint index) {
   return moment;
 }
 
+bool scattered = true;  // whether rays have been, before this
+
 // What the ray tolerates.
 Tolerance tolerance_of(uint index) {
   Tolerance tolerance;
@@ -62,8 +69,21 @@ Tolerance tolerance_of(uint index) {
   tolerance.camera.width = frames[0].tolerance;
   tolerance.camera.spread = frames[0].tolerance_spread;
   tolerance.scattered = no_cone();
+  if (placing == 2u && scattered) {
+    uvec4 a;
+    uvec4 b;
+    LOAD4(a, instances, 2u * index);
+    LOAD4(b, instances, 2u * index + 1u);
+    tolerance.scattered = stored_cone(a, b);
+  }
   return tolerance;
 }
+
+#define STORE_CONE(quads, first, cone)                                    \
+  {                                                                       \
+    STORE4(quads, first, as_bits((cone).apex, floatBitsToUint((cone).width))); \
+    STORE4(quads, (first) + 1u, uvec4(floatBitsToUint((cone).spread), 0u, 0u, 0u)); \
+  }
 
 SurfacePoint locate_hit(uint index, uvec4 hit) {
   return locate(hit.w, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), placed_by(index), moment_at(index),

@@ -14,9 +14,10 @@
 // Where all texels between the corners of a node have collapsed, that surface is the node's two triangles.
 // Traversals stop there and test that quad, by the same test (layout/trace.h). A node says from which
 // tolerance on that is so. Its corners do not move before: their radius is at least what the tolerance there
-// can be while some texel between them has not collapsed, which the sum in `corner_radius` (layout/detail_nodes.h) sees to, because
-// no tolerance changes by more than `steepest` a unit of length. So a texel that slides has a parent that
-// stays, and the corners of a quad have to be looked up once, not along a chain of parents.
+// can be while some texel between them has not collapsed, which the sum in `corner_radius`
+// (layout/detail_nodes.h) sees to, because no tolerance changes by more than `steepest` a unit of length. So
+// a texel that slides has a parent that stays, and the corners of a quad have to be looked up once, not along
+// a chain of parents.
 //
 // The radius of a texel is the error that the surface has without it: how far, at most, finer texels are from
 // the quads that are left when it has gone. It is found from the bottom up, every frame.
@@ -69,6 +70,28 @@ FN vec1 tolerance_at(IN(Tolerance) t, vec3 p) {
               t.scattered.width + t.scattered.spread * distance_to(p, t.scattered.apex));
 }
 
+// What rays that leave a surface at `p` tolerate besides what the camera's do; `radius`: all that was hit is
+// within it. There they must tolerate just what the ray tolerated that hit it: then they see the same
+// surface, which they start from, and no shadow of another level of it. So the new cone begins below the
+// camera's and overtakes it farther away; and where an earlier scattered cone is the larger one it stays.
+FN RayCone scattered_cone(IN(Tolerance) t, vec3 p, vec1 radius, vec1 spread) {
+  vec1 nearest = max2(distance_to(p, t.camera.apex) - radius, 0.0f);
+  vec1 least = (t.camera.width + t.camera.spread * nearest) * 0.9998f;
+  vec1 largest = t.scattered.width + t.scattered.spread * (distance_to(p, t.scattered.apex) + radius);
+  bvec1 stays = largest > least;
+  RayCone cone;
+  cone.apex = select(stays, t.scattered.apex, p);
+  cone.width = select(stays, t.scattered.width, flush_tiny(least - spread * radius * 1.0002f));
+  cone.spread = select(stays, t.scattered.spread, spread);
+  return cone;
+}
+
+// Of a direction drawn with a density by solid angle (0: a mirror's): the wider the lobe, the more.
+FN vec1 scattered_spread(vec1 density, float camera_spread, float steepest) {
+  vec1 lobe = 0.015625f / sqrt(max2(density, 1e-6f));
+  return select(density > 0.0f, min2(camera_spread + lobe, steepest), vec1(camera_spread));
+}
+
 CONST float least_radius = 1e-18f;
 CONST float fixed_radius = infinity_bits_as_max;  // of a texel that never collapses
 // How far a texel has slid, in [0, 1].
@@ -80,7 +103,8 @@ FN vec3 slid(vec3 own, vec3 parent, vec1 part) {
   return select(part >= 1.0f, parent, moved3(own, parent, part));
 }
 
-// Collapses, a word buffer, two words a texel: { parent, radius (float bits) }. Primitives say their level: bits 28 to 31. Bits 1 to 27 are the texel of corner a.
+// Collapses, a word buffer, two words a texel: { parent, radius (float bits) }. Primitives say their level:
+// bits 28 to 31. Bits 1 to 27 are the texel of corner a.
 CONST uint level_shift = 28u;
 CONST uint most_detailed_texels = 134217728u;  // 2^27
 FN uvec1 primitive_level(uvec1 primitive) {

@@ -26,10 +26,11 @@ struct FrameRecord {
   vec3 lens_right;  // half axes of the lens; 0: a pinhole
   float focus;      // along `forward`: where what lies is sharp
   vec3 lens_up;
-  uint segments;      // of the shutter (layout/motion.h); 0: it is open for an instant
-  uint image_texels;  // of one geometry image
-  float tolerance;    // with levels of detail (layout/detail.h): the width of the cone at `origin` ...
+  uint segments;           // of the shutter (layout/motion.h); 0: it is open for an instant
+  uint image_texels;       // of one geometry image
+  float tolerance;         // with levels of detail (layout/detail.h): the width of the cone at `origin` ...
   float tolerance_spread;  // ... and its spread
+  float steepest;          // the most that any cone may widen a unit of length
 };
 
 CONST uint light_directional = 0u;

@@ -29,7 +29,7 @@ struct ObjectRecord {
   uint first_wide;
   vec3 hi;
   uint first_detail;  // of its nodes above the leaves (layout/detail.h)
-  vec3 step;  // of the grid of its 16-bit boxes, whose base is `lo`
+  vec3 step;          // of the grid of its 16-bit boxes, whose base is `lo`
   uint pad1;
 };
 

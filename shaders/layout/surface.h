@@ -3,10 +3,11 @@
 // Included by kernels behind the buffers it names, and by the CPU fallback inside a class whose members have
 // those names; LOAD4, LOAD1, count_read, and WHERE and SET for what only some invocations do, mean the same
 // in both. So do numbers that are the same in the whole dispatch: `sources`, 3 where the atlas has mapped
-// charts, `detailed_sources` with levels of detail (layout/detail.h), else 1; `layered`, 1 where a material may reflect in another way than metallic-roughness says, be
-// transparent or coated (where that is 0 the Surface is a plain one whatever the material says); `instanced`,
-// 1 where an instance puts what was hit into the world (layout/objects.h); and `segments`, not 0 where the
-// surface moves while the shutter is open (layout/motion.h).
+// charts, `detailed_sources` with levels of detail (layout/detail.h), else 1; `layered`, 1 where a material
+// may reflect in another way than metallic-roughness says, be transparent or coated (where that is 0 the
+// Surface is a plain one whatever the material says); `instanced`, 1 where an instance puts what was hit into
+// the world (layout/objects.h); and `segments`, not 0 where the surface moves while the shutter is open
+// (layout/motion.h).
 
 // A point of the input, and its share in what is found at a hit.
 struct SurfaceSource {
@@ -23,14 +24,14 @@ struct SurfaceSource {
 struct SurfacePoint {
   uvec1 texel[3];  // of the corners of the triangle that was hit
   vec1 weight[3];
-  vec3 corner[3];     // their positions
-  uvec1 parent[3];    // with levels of detail: the texels that they slide to ...
-  vec1 collapse[3];   // ... and how far they have
+  vec3 corner[3];                          // their positions
+  uvec1 parent[3];                         // with levels of detail: the texels that they slide to ...
+  vec1 collapse[3];                        // ... and how far they have
   SurfaceSource source[detailed_sources];  // those from `sources` on are not set
-  uvec1 part;               // of the first source
-  Moment moment;            // at which it was hit; not set where nothing moves
-  vec4 to_world[3];         // rows of the instance's matrix; not set without instances
-  vec1 rounding;            // InstanceRecord::rounding
+  uvec1 part;                              // of the first source
+  Moment moment;                           // at which it was hit; not set where nothing moves
+  vec4 to_world[3];                        // rows of the instance's matrix; not set without instances
+  vec1 rounding;                           // InstanceRecord::rounding
 };
 
 FN vec3 placed_direction(IN(SurfacePoint) point, vec3 d) {
@@ -150,6 +151,16 @@ FN void slide_corners(INOUT(SurfacePoint) point, uvec1 level, uvec1 kind, IN(Tol
       SET(point.source[3 + i].share, share);
     }
   }
+}
+
+// What rays tolerate that leave `position`, where a ray with that tolerance has hit.
+FN RayCone leaving_cone(IN(SurfacePoint) point, vec3 position, IN(Tolerance) tolerance, vec1 spread) {
+  vec1 radius = vec1(0.0f);
+  for (int i = 0; i < 3; ++i) {
+    radius = max2(radius, distance_to(point.corner[i], position));
+    radius = max2(radius, distance_to(geometry_at(point.texel[i], point.moment), position));
+  }
+  return scattered_cone(tolerance, position, radius * 2.0f, spread);
 }
 
 FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Moment) moment,

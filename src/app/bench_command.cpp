@@ -212,7 +212,8 @@ int run_bench(const BenchOptions& options) {
   const Rays incoherent = incoherent_rays(prepared, pose, uint32_t(primary.size() / 2), options.picture.seed);
   std::vector<TraversalCost> costs;
   for (const std::string& traversal : options.traversals)
-    costs.push_back(bench_traversal(options, prepared, view, *device.backend, traversal, primary, incoherent));
+    costs.push_back(
+        bench_traversal(options, prepared, view, *device.backend, traversal, primary, incoherent));
   const render::DeviceInfo& info = device.backend->info();
   fmt::print(
       "{}", options.json ? json_text(options, prepared, info, costs) : table(options, prepared, info, costs));

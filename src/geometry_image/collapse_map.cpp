@@ -64,9 +64,9 @@ Recipe recipe_of(const scene::Assembly& assembly, const std::vector<uint32_t>& w
   for (int i = 0; i < 3; ++i) {
     const float share = shares[static_cast<size_t>(i)];
     recipe.parts[static_cast<size_t>(i)] =
-        share == 0 ? std::array<uint32_t, 2>{none, 0}
-                   : std::array<uint32_t, 2>{welded[assembly.triangles[entry.x][i]],
-                                             std::bit_cast<uint32_t>(share)};
+        share == 0
+            ? std::array<uint32_t, 2>{none, 0}
+            : std::array<uint32_t, 2>{welded[assembly.triangles[entry.x][i]], std::bit_cast<uint32_t>(share)};
   }
   std::sort(recipe.parts.begin(), recipe.parts.end());
   return recipe;
@@ -160,8 +160,7 @@ void Maker::find_points() {
     return a.parts != b.parts ? a.parts < b.parts : a.texel < b.texel;
   });
   for (size_t i = 1; i < recipes.size(); ++i) {
-    if (recipes[i].parts == recipes[i - 1].parts)
-      points_[recipes[i].texel] = points_[recipes[i - 1].texel];
+    if (recipes[i].parts == recipes[i - 1].parts) points_[recipes[i].texel] = points_[recipes[i - 1].texel];
   }
 }
 
@@ -298,7 +297,8 @@ void Maker::list_nodes() {
             const uint32_t cx = 2 * x + (k & 1), cy = 2 * y + (k >> 1);
             if (cx < below_across && cy < below_along)
               node.children[k] = static_cast<uint32_t>(below + size_t(cy) * below_across + cx);
-            if (node.children[k] != none) nodes_[node.children[k]].parent = static_cast<uint32_t>(nodes_.size());
+            if (node.children[k] != none)
+              nodes_[node.children[k]].parent = static_cast<uint32_t>(nodes_.size());
           }
           nodes_.push_back(node);
         }
@@ -485,20 +485,15 @@ CollapseMap Maker::write() const {
 
 CoarseNode Maker::described(const Node& node) const {
   const ChartRecord& chart = atlas_.charts[node.chart];
-  const auto behind = std::upper_bound(
-      atlas_.objects.begin(), atlas_.objects.end(), chart.first_texel,
-      [](uint32_t texel, const AtlasObject& object) { return texel < object.first_texel; });
+  const auto behind =
+      std::upper_bound(atlas_.objects.begin(), atlas_.objects.end(), chart.first_texel,
+                       [](uint32_t texel, const AtlasObject& object) { return texel < object.first_texel; });
   const auto object = static_cast<uint32_t>(behind - atlas_.objects.begin() - 1);
   const std::array<uint32_t, 9> v = vertices(node);
-  const uint32_t slot = chart.first_slot - atlas_.objects[object].first_slot + QuadOrder(chart).slot(node.x, node.y);
-  return {object,
-          node.level,
-          slot >> (2 * node.level),
-          v[0],
-          v[1] - v[0],
-          v[2] - v[0],
-          v[4] == none ? 0 : v[4] - v[0],
-          v[5] == none ? 0 : v[5] - v[0],
+  const uint32_t slot =
+      chart.first_slot - atlas_.objects[object].first_slot + QuadOrder(chart).slot(node.x, node.y);
+  return {object,      node.level,  slot >> (2 * node.level),       v[0],
+          v[1] - v[0], v[2] - v[0], v[4] == none ? 0 : v[4] - v[0], v[5] == none ? 0 : v[5] - v[0],
           node.able};
 }
 

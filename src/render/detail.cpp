@@ -41,8 +41,9 @@ float steepest_cone(const layout::RayCone& camera) {
 Detail::Detail(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas)
     : backend_(backend), texels_(static_cast<uint32_t>(atlas.texel_map.size())) {
   if (atlas.texel_map.size() > layout::most_detailed_texels) {
-    fail(ExitCode::usage, "--pixels-of-error", "takes at most {} texels, and the scene has {}; draw it without",
-         layout::most_detailed_texels, atlas.texel_map.size());
+    fail(ExitCode::usage, "--pixels-of-error",
+         "takes at most {} texels, and the scene has {}; draw it without", layout::most_detailed_texels,
+         atlas.texel_map.size());
   }
   const geometry_image::CollapseMap map = geometry_image::make_collapse_map(assembly, atlas);
   levels_ = map.levels;
@@ -68,10 +69,10 @@ void Detail::upload_nodes(const geometry_image::Atlas& atlas, const geometry_ima
   for (const geometry_image::CoarseNode& node : map.nodes) {
     const uint32_t depth = atlas.objects[node.object].depth - node.level;
     const uint32_t first = first_nodes_[node.object], number = first + layout::level_base(depth) + node.index;
-    nodes.push_back({number,
-                     node.level > 1 ? first + layout::level_base(depth + 1) + 4 * node.index : layout::no_index,
-                     node.texel, node.whole ? layout::coarse_whole : 0, node.across, node.along,
-                     node.half_across, node.half_along});
+    nodes.push_back(
+        {number, node.level > 1 ? first + layout::level_base(depth + 1) + 4 * node.index : layout::no_index,
+         node.texel, node.whole ? layout::coarse_whole : 0, node.across, node.along, node.half_across,
+         node.half_along});
     if (node.whole) quads[number] = {node.texel, node.across, node.along, node.level};
   }
   coarse_nodes_ = Buffer(backend_, {"coarse_nodes", 2 * nodes.size(), 16});

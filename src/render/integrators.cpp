@@ -17,9 +17,10 @@ uint32_t Renderer::State::counted() {
   return count;
 }
 
-// What the shadow rays carry, where nothing is in their way.
-bool Renderer::State::add_unblocked(uint32_t count, const Interrupted& interrupted) {
-  if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true}, interrupted)) return false;
+// What the shadow rays carry, where nothing is in their way. `scattered`: they come from rays that have been.
+bool Renderer::State::add_unblocked(uint32_t count, bool scattered, const Interrupted& interrupted) {
+  if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true, .scattered = scattered}, interrupted))
+    return false;
   run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
       count);
   return true;
@@ -33,8 +34,8 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, con
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
                                   radiance.id(), environment.environments.id(), environment.quads.id(),
                                   environment.cells.id(), paths.id()}),
-        push, push.rays, surface_constants(recursion));
-    if (!add_unblocked(push.rays, interrupted)) return false;
+        push, push.rays, surface_constants(recursion, true));
+    if (!add_unblocked(push.rays, push.vertex > 0, interrupted)) return false;
   }
   return true;
 }
@@ -44,7 +45,7 @@ bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrup
       surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
       layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
       rays.rays, plain_constants());
-  return add_unblocked(rays.rays, interrupted);
+  return add_unblocked(rays.rays, false, interrupted);
 }
 
 // Direct light wherever a ray arrives, until none goes on.
@@ -59,9 +60,9 @@ bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t rec
     count_from_zero();
     run(passes::branch,
         surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push,
-        push.rays, surface_constants(recursion));
+        push.rays, surface_constants(recursion, true));
     if (counted() == 0) return true;
-    if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
+    if (!trace_masked(primary, push.rays, {.scattered = true}, interrupted)) return false;
   }
 }
 
@@ -76,11 +77,11 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
                                   radiance.id(), paths.id(), going_on.id(), environment.environments.id(),
                                   environment.quads.id(), environment.cells.id()}),
-        push, push.rays, surface_constants());
+        push, push.rays, surface_constants(layout::recursion_none, true));
     const bool last = counted() == 0;
-    if (!add_unblocked(push.rays, interrupted)) return false;
+    if (!add_unblocked(push.rays, vertex > 0, interrupted)) return false;
     if (last) return true;
-    if (!trace_masked(primary, push.rays, {}, interrupted)) return false;
+    if (!trace_masked(primary, push.rays, {.scattered = true}, interrupted)) return false;
   }
 }
 

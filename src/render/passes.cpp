@@ -64,14 +64,14 @@ constexpr Binding camera_bindings[] = {
     "times", word, read                             \
   }
 
-#define DETAIL_BINDINGS                                                                  \
+#define DETAIL_BINDINGS                                                                    \
   {"collapses", word, read}, {"node_details", quad, read}, {"coarse_quads", quad, read}, { \
-    "cones", quad, read                                                                  \
+    "cones", quad, read                                                                    \
   }
 
 constexpr Binding trace_threaded_bindings[] = {
-    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"links", word, read}, OBJECT_BINDINGS,
-    DETAIL_BINDINGS};
+    RAY_BINDINGS,          {"nodes_lo", quad, read}, {"nodes_hi", quad, read},
+    {"links", word, read}, OBJECT_BINDINGS,          DETAIL_BINDINGS};
 
 constexpr Binding trace_octant_bindings[] = {
     RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
@@ -94,12 +94,9 @@ constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
                                             DETAIL_BINDINGS};
 
 // Its leaf map is read in pairs of slots.
-constexpr Binding trace_tile_bindings[] = {RAY_BINDINGS,
-                                           {"boxes", quad, read},
-                                           {"leaf_map", quad, read},
-                                           {"extents", structs, read},
-                                           OBJECT_BINDINGS,
-                                           DETAIL_BINDINGS};
+constexpr Binding trace_tile_bindings[] = {
+    RAY_BINDINGS,    {"boxes", quad, read}, {"leaf_map", quad, read}, {"extents", structs, read},
+    OBJECT_BINDINGS, DETAIL_BINDINGS};
 
 #undef DETAIL_BINDINGS
 #undef OBJECT_BINDINGS
@@ -107,10 +104,10 @@ constexpr Binding trace_tile_bindings[] = {RAY_BINDINGS,
 
 constexpr Binding detail_begin_bindings[] = {{"collapses", word, read}, {"radii", structs, write}};
 
-#define COARSE_NODE_BINDINGS                                                                               \
+#define COARSE_NODE_BINDINGS                                                                                 \
   {"coarse_nodes", quad, read}, {"geometry", quad, read}, {"collapses", word, read}, {"points", word, read}, \
-      {"node_details", quad, read_write}, {                                                                \
-    "radii", structs, read_write                                                                           \
+      {"node_details", quad, read_write}, {                                                                  \
+    "radii", structs, read_write                                                                             \
   }
 constexpr Binding detail_measure_bindings[] = {COARSE_NODE_BINDINGS};
 constexpr Binding detail_settle_bindings[] = {COARSE_NODE_BINDINGS, {"coarse_order", word, read}};
@@ -179,15 +176,17 @@ constexpr Binding boxes_bindings[] = {{"boxes", quad, read_write}};
 constexpr Binding wide_nodes_bindings[] = {
     {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"wide_nodes", structs, write}};
 
-#define SURFACE_BINDINGS                                                                                 \
+// `placing`: whether it writes cones.
+#define SURFACE_BINDINGS_OF(placing)                                                                     \
   {"hits", quad, read}, {"geometry", quad, read}, {"normal_map", quad, read}, {"texel_map", quad, read}, \
       {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read},                     \
       {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
       {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                      \
       {"materials", structs, read}, {"textures", structs, read}, {"frame", structs, read},               \
-      {"ray_words", word, read}, {"instances", quad, read}, {                                            \
+      {"ray_words", word, read}, {"placing", quad, placing}, {                                           \
     "collapses", word, read                                                                              \
   }
+#define SURFACE_BINDINGS SURFACE_BINDINGS_OF(read)
 
 #define ENVIRONMENT_BINDINGS                                            \
   {"environments", structs, read}, {"environment_quads", quad, read}, { \
@@ -208,7 +207,7 @@ constexpr Binding shade_bindings[] = {SURFACE_BINDINGS,
                                       ENVIRONMENT_BINDINGS,
                                       {"paths", quad, read}};
 
-constexpr Binding branch_bindings[] = {SURFACE_BINDINGS,
+constexpr Binding branch_bindings[] = {SURFACE_BINDINGS_OF(read_write),
                                        {"rays", quad, read_write},
                                        {"paths", quad, read_write},
                                        {"branches", quad, read_write},
@@ -220,15 +219,10 @@ constexpr Binding ambient_bindings[] = {SURFACE_BINDINGS,
                                         {"shadow_rays", quad, write},
                                         {"radiance", quad, read_write}};
 
-constexpr Binding path_bindings[] = {SURFACE_BINDINGS,
-                                     {"rays", quad, read_write},
-                                     {"lights", structs, read},
-                                     {"contributions", quad, write},
-                                     {"shadow_rays", quad, write},
-                                     {"radiance", quad, read_write},
-                                     {"paths", quad, read_write},
-                                     {"going_on", structs, read_write},
-                                     ENVIRONMENT_BINDINGS};
+constexpr Binding path_bindings[] = {
+    SURFACE_BINDINGS_OF(read_write), {"rays", quad, read_write},        {"lights", structs, read},
+    {"contributions", quad, write},  {"shadow_rays", quad, write},      {"radiance", quad, read_write},
+    {"paths", quad, read_write},     {"going_on", structs, read_write}, ENVIRONMENT_BINDINGS};
 
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
@@ -238,6 +232,7 @@ constexpr Binding features_bindings[] = {
 
 #undef ENVIRONMENT_BINDINGS
 #undef SURFACE_BINDINGS
+#undef SURFACE_BINDINGS_OF
 
 constexpr Binding accumulate_bindings[] = {
     {"shadow_hits", quad, read}, {"contributions", quad, read}, {"radiance", quad, read_write}};

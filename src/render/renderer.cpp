@@ -67,7 +67,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       tables(device, scene_in, assembly_in, atlas_in),
       environment(device, scene_in),
       detail(make_detail(device, assembly_in, atlas_in, settings_in)),
-      tracing(device, atlas_in, tables.leaf_map, settings_in.traversal, settings_in.loop_budget,
+      tracing(device, atlas_in, tables.leaf_map, settings_in.traversal,
+              uint64_t(settings_in.width) * settings_in.height, settings_in.loop_budget,
               settings_in.shutter_segments, detail ? &*detail : nullptr),
       reach(scene_in),
       pose_box(scene_in) {
@@ -107,7 +108,9 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   contributions = Buffer(device, {"contributions", batch_rays, 16});
   radiance = Buffer(device, {"radiance", batch_rays, 16});
   paths = Buffer(device, {"paths", eye ? 0 : batch_rays, 16});
-  branches = Buffer(device, {"branches", 3 * uint64_t(batch_rays) * waiting, 16});
+  const bool coned = detail && !eye;
+  if (coned) cones = Buffer(device, {"cones", 2 * uint64_t(batch_rays), 16});
+  branches = Buffer(device, {"branches", (coned ? 5 : 3) * uint64_t(batch_rays) * waiting, 16});
   going_on = Buffer(device, {"going_on", 1, 4});
   beauty = Buffer(device, {"beauty", pixels, 16});
   display = Buffer(device, {"display", pixels, 16});
@@ -214,6 +217,8 @@ std::vector<scene::Bounds> Renderer::State::object_boxes(const scene::Pose& pose
 bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, TraceQuery query,
                             const Interrupted& interrupted) {
   query.times = &times_of(rays);
+  query.scattered = query.scattered && has_cones();
+  query.cones = &cones;
   if (instances) return instances->trace(tracing, geometry, rays, count, query, interrupted);
   return tracing.trace(geometry, rays, count, query, interrupted);
 }
@@ -267,6 +272,7 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
   const layout::RayCone cone = camera_cone(view, settings.width, settings.height, settings.pixels_of_error);
   record.tolerance = cone.width;
   record.tolerance_spread = cone.spread;
+  record.steepest = steepest_cone(cone);
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
   if (record.segments > 0) upload_cameras(record, shutter);
 }
@@ -295,7 +301,7 @@ bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, Trace
   do {
     tracing.clear_pending();
     run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), tracing.pending().id()}),
-        layout::CountPush{count}, count, surface_constants());
+        layout::CountPush{count}, count, surface_constants(layout::recursion_none, query.scattered));
     if (tracing.take_pending() == 0) return true;
   } while (trace(rays, count, query, interrupted));
   return false;
@@ -402,10 +408,10 @@ Traversal Renderer::traversal() const {
 }
 void Renderer::update(const scene::Pose& pose, const View* view) {
   const Settings& settings = state_->settings;
-  state_->update(
-      pose, {},
-      view == nullptr ? layout::RayCone{}
-                      : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error));
+  state_->update(pose, {},
+                 view == nullptr
+                     ? layout::RayCone{}
+                     : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error));
 }
 
 std::vector<glm::uvec4> Renderer::texel_map() {

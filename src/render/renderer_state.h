@@ -45,6 +45,7 @@ struct Renderer::State {
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
   bool loaded_together = false;  // see TraceQuery::common_origin
+  Buffer cones;
   Buffer contributions, radiance, paths, branches, going_on, beauty, display, aovs;
   uint32_t light_count = 0, sky_lights = 0;
   uint32_t batch_rays = 0;
@@ -71,16 +72,18 @@ struct Renderer::State {
         instances                       ? rays.instances.id()
         : settings.shutter_segments > 0 ? times_of(rays).id()
                                         : rays.steps.id(),
-        instances ? instances->records().id() : geometry.id(),
+        instances ? instances->records().id() : (has_cones() ? cones : rays.trails).id(),
         detail ? detail->collapses().id() : rays.steps.id()};
     ids.insert(ids.end(), more);
     return ids;
   }
 
   // Of the passes that read them.
-  std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none) const {
-    return {sources(), tables.layered,      environment.map,
-            recursion,      instances ? 1u : 0u, settings.shutter_segments};
+  // `scattered`: what the pass works on can have cones.
+  std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none,
+                                                         bool scattered = false) const {
+    const uint32_t placing = instances ? 1 : (scattered && has_cones() ? 2 : 0);
+    return {sources(), tables.layered, environment.map, recursion, placing, settings.shutter_segments};
   }
 
   // Of those that take every surface for a plain one.
@@ -94,6 +97,9 @@ struct Renderer::State {
   }
 
   uint32_t sources() const { return detail ? layout::detailed_sources : tables.sources; }
+
+  // Of rays that have been scattered, with levels of detail.
+  bool has_cones() const { return static_cast<bool>(cones); }
 
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
 
@@ -120,7 +126,7 @@ struct Renderer::State {
   bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
   bool recursive_sample(const layout::RayPush& rays, uint32_t recursion, const Interrupted& interrupted);
   bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool add_unblocked(uint32_t count, const Interrupted& interrupted);
+  bool add_unblocked(uint32_t count, bool scattered, const Interrupted& interrupted);
   void count_from_zero();
   uint32_t counted();
 };

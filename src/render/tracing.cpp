@@ -17,8 +17,14 @@
 namespace lodestone::render {
 namespace {
 
-// `one_tree`: for all rays, at full resolution.
-Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_tree, bool detailed) {
+// From how many pixels for each quad of the scene on tiles are worth it.
+constexpr uint64_t pixels_a_quad = 8;
+
+// `one_tree`: for all rays, at full resolution. `sparse`: quads are large in the picture. A tile tests all
+// that its 64 rays are near to, and where many quads lie between two rays that is many times what `wide` does
+// (docs/measurements.md).
+Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_tree, bool sparse,
+                           bool detailed) {
   const bool shuffles =
       std::find(device.lacks.begin(), device.lacks.end(), "subgroup shuffles") == device.lacks.end();
   const bool tiles = device.subgroup_size == layout::tile_lanes && shuffles;
@@ -27,7 +33,7 @@ Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_
          "needs a device with subgroups of {} that can shuffle; {} has none: use wide", layout::tile_lanes,
          device.name);
   }
-  if (wanted == Traversal::automatic) wanted = tiles ? Traversal::tile : Traversal::wide;
+  if (wanted == Traversal::automatic) wanted = tiles && sparse ? Traversal::tile : Traversal::wide;
   if (wanted == Traversal::tile && !one_tree) wanted = Traversal::wide;
   if (wanted == Traversal::wide && detailed && device.kind == "cpu") wanted = Traversal::octant;
   return wanted;
@@ -36,13 +42,14 @@ Traversal choose_traversal(const DeviceInfo& device, Traversal wanted, bool one_
 }  // namespace
 
 Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map,
-                 Traversal traversal, uint32_t loop_budget, uint32_t segments, const Detail* detail)
+                 Traversal traversal, uint64_t pixels, uint32_t loop_budget, uint32_t segments,
+                 const Detail* detail)
     : backend_(backend),
       leaf_map_(leaf_map),
       on_cpu_(backend.info().kind == "cpu"),
       traversal_(choose_traversal(backend.info(), traversal,
                                   atlas.objects.size() == 1 && segments == 0 && detail == nullptr,
-                                  detail != nullptr)),
+                                  atlas.report.quads * pixels_a_quad <= pixels, detail != nullptr)),
       loop_budget_(loop_budget),
       segments_(segments),
       objects_a_segment_(static_cast<uint32_t>(atlas.objects.size())),
@@ -226,16 +233,10 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u,
                                                        roots != nullptr ? 1u : 0u, segments_,
                                                        detail_ != nullptr ? 1u : 0u};
-  const bool scattered = detail_ != nullptr && query.cones != nullptr;
-  layout::TracePush push{count,
-                         resume ? 1u : 0u,
-                         loop_budget_,
-                         image_texels_,
-                         objects_a_segment_,
-                         scattered ? 1u : 0u,
-                         camera_.apex,
-                         camera_.width,
-                         camera_.spread};
+  const bool scattered = detail_ != nullptr && query.scattered;
+  layout::TracePush push{count,         resume ? 1u : 0u,   loop_budget_,
+                         image_texels_, objects_a_segment_, scattered ? 1u : 0u,
+                         camera_.apex,  camera_.width,      camera_.spread};
   // What the constants leave out nothing reads; any words and quads will do.
   std::vector<BufferId> of_objects = {objects_.id(), roots != nullptr ? roots->id() : rays.steps.id(),
                                       segments_ > 0 ? query.times->id() : rays.steps.id()};

@@ -47,19 +47,21 @@ struct TraceQuery {
   bool common_origin = false;     // runs of 64 rays start from one point and go nearly the same way
   bool restarted = false;         // only those that `mask` has sent on
   const Buffer* times = nullptr;  // of the rays, where something moves
-  const Buffer* cones = nullptr;  // of rays that have been scattered, where there is detail; null: none has
+  bool scattered = false;         // what has been scattered has a cone of its own, where there is detail
+  const Buffer* cones = nullptr;  // and these are the cones
 };
 
 class Detail;
 
 class Tracing {
  public:
-  // Makes the buffers and runs `links`. `leaf_map` (layout/atlas.h) must outlive it, and so must `detail`,
+  // Makes the buffers and runs `links`; `pixels` of a picture help to choose `automatic`. `leaf_map`
+  // (layout/atlas.h) must outlive it, and so must `detail`,
   // which is null without levels of detail. With several objects, with `segments` of motion
   // (layout/motion.h; 0: nothing moves) and with detail `tile` becomes `wide`; with detail `wide` becomes
   // `octant` on the CPU. Throws Error(usage) where the device cannot run that traversal.
   Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buffer& leaf_map, Traversal traversal,
-          uint32_t loop_budget, uint32_t segments, const Detail* detail = nullptr);
+          uint64_t pixels, uint32_t loop_budget, uint32_t segments, const Detail* detail = nullptr);
 
   Traversal traversal() const { return traversal_; }  // what `automatic` became
 

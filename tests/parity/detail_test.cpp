@@ -249,7 +249,8 @@ TEST(DetailPictures, AreThoseOfFullResolutionWhereNothingIsTolerated) {
     for (size_t c = 0; c < fine.channels.size(); ++c) {
       EXPECT_EQ(image.channels[c].ids, fine.channels[c].ids) << fine.channels[c].name;
       for (size_t i = 0; i < fine.channels[c].values.size(); ++i)
-        ASSERT_EQ(image.channels[c].values[i], fine.channels[c].values[i]) << fine.channels[c].name << " " << i;
+        ASSERT_EQ(image.channels[c].values[i], fine.channels[c].values[i])
+            << fine.channels[c].name << " " << i;
     }
   }
 }
@@ -288,13 +289,54 @@ TEST(DetailPictures, DoNotPop) {
       const float distance = 14 * std::pow(1.01f, float(frame));
       image::Image image = image_of(*backend, ready, view_from({0, distance / 2, distance}), settings);
       for (uint32_t i = 0; frame > 0 && i < side * side; ++i)
-        all.push_back(std::abs(value(image, "G", i % side, i / side) - value(before, "G", i % side, i / side)));
+        all.push_back(
+            std::abs(value(image, "G", i % side, i / side) - value(before, "G", i % side, i / side)));
       before = std::move(image);
     }
     std::sort(all.begin(), all.end());
     return all[all.size() * 999 / 1000];
   };
   EXPECT_LE(changes(1), 1.5f * changes(0));
+}
+
+// A lamp in a closed body: a ray that started below the surface that it sees would find it. All other light is
+// no brighter than the world around.
+TEST(DetailPictures, ShowNoRayThatStartsBelowItsSurface) {
+  const auto backend = open("cpu");
+  uint32_t coarse = 0;
+  for (const float roughness : {0.0f, 0.3f, 1.0f}) {
+    scene::Scene scene = grid_sphere(96);
+    scene::Material body, lamp;
+    body.roughness = roughness;
+    lamp.emissive = glm::vec3(10000);
+    scene.materials = {body, lamp};
+    scene.meshes.push_back(scene.meshes[0]);
+    for (uint32_t m = 0; m < 2; ++m)
+      for (scene::Part& part : scene.meshes[m].parts) part.material = m;
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes[1].mesh = 1;
+    scene.nodes[1].scale = glm::vec3(0.6f);
+    scene.sky = scene::Sky{glm::vec3(0.5f), glm::vec3(0.5f), glm::vec3(0.5f)};
+    const ReadyScene ready(std::move(scene));
+    for (const auto integrator :
+         {render::Integrator::specular, render::Integrator::glossy, render::Integrator::path}) {
+      for (const float distance : {1.5f, 8.0f}) {
+        render::Settings settings = settings_of(6, render::Traversal::octant);
+        settings.integrator = integrator;
+        settings.max_bounces = 64;
+        settings.spp = 16;
+        settings.aovs = {"lod"};
+        const glm::vec3 from = glm::normalize(glm::vec3(0.5f, 0.4f, 1)) * distance;
+        const image::Image image = image_of(*backend, ready, view_from(from), settings);
+        for (uint32_t i = 0; i < side * side; ++i) {
+          coarse += value(image, "lod.L", i % side, i / side) > 0.5f ? 1 : 0;
+          ASSERT_LE(value(image, "G", i % side, i / side), 10.0f)
+              << to_string(integrator) << " " << i % side << " " << i / side;
+        }
+      }
+    }
+  }
+  EXPECT_GT(coarse, 1000u);
 }
 
 class DetailParity : public testing::TestWithParam<std::string> {};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lodestone/cpu_fallback/cpu_backend.h"
+#include "lodestone/layout/tile.h"
 #include "lodestone/test_support/devices.h"
 #include "lodestone/test_support/environments.h"
 #include "lodestone/test_support/instanced_scenes.h"
@@ -54,9 +55,13 @@ void expect_equal(const std::vector<render::PassDifference>& rows) {
   }
 }
 
-// Those that need no subgroups, and what `auto` takes: `tile` where there are any of 8.
-constexpr render::Traversal all_traversals[] = {render::Traversal::threaded, render::Traversal::octant,
-                                                render::Traversal::wide, render::Traversal::automatic};
+// Those that need no subgroups, and `tile` where there are any of 8.
+std::vector<render::Traversal> all_traversals(const Pair& pair) {
+  std::vector<render::Traversal> all = {render::Traversal::threaded, render::Traversal::octant,
+                                        render::Traversal::wide};
+  if (pair.device->info().subgroup_size == layout::tile_lanes) all.push_back(render::Traversal::tile);
+  return all;
+}
 
 void expect_equal(const ReadyScene& ready, const Pair& pair, const render::Settings& settings) {
   for (const float time : {0.0f, 0.6f}) expect_equal(differences(ready, pair, time, settings));
@@ -79,7 +84,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuOnAnExactAtlas) {
 }
 
 TEST_P(Devices, GiveTheBitsOfTheCpuOnResampledSpheres) {
-  for (const auto traversal : all_traversals) {
+  for (const auto traversal : all_traversals(pair_)) {
     render::Settings settings = small_settings();
     settings.traversal = traversal;
     expect_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::charts), pair_, settings);
@@ -119,7 +124,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuUnderEnvironmentMaps) {
 
 TEST_P(Devices, ResumeRaysThatRunOutOfBudgetWithTheSameBits) {
   render::Settings settings = small_settings();
-  for (const auto traversal : all_traversals) {
+  for (const auto traversal : all_traversals(pair_)) {
     settings.traversal = traversal;
     settings.aovs = {"depth", "id"};  // for `steps` no tiles are traced
     settings.loop_budget = 7;
@@ -135,7 +140,7 @@ TEST_P(Devices, SplitArraysOverSeveralBuffersWithTheSameBits) {
   const Pair split(open_split(GetParam(), 20000, {.validate = true}));
   for (const auto kind : {AtlasKind::grid, AtlasKind::exact, AtlasKind::charts}) {
     const ReadyScene ready("builtin:spheres", kind);
-    for (const auto traversal : all_traversals) {
+    for (const auto traversal : all_traversals(pair_)) {
       render::Settings settings = small_settings();
       settings.traversal = traversal;
       expect_equal(differences(ready, split, 0.6f, settings));
@@ -156,7 +161,7 @@ ReadyScene masked_scene(geometry_image::AtlasKind kind) {
 TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
   for (const auto kind : {geometry_image::AtlasKind::exact, geometry_image::AtlasKind::charts}) {
     const ReadyScene ready = masked_scene(kind);
-    for (const auto traversal : all_traversals) {
+    for (const auto traversal : all_traversals(pair_)) {
       render::Settings settings = small_settings();
       settings.traversal = traversal;
       expect_equal(ready, pair_, settings);
@@ -166,7 +171,7 @@ TEST_P(Devices, GiveTheBitsOfTheCpuThroughCutOutSurfaces) {
 
 TEST_P(Devices, GiveTheBitsOfTheCpuThroughInstances) {
   const ReadyScene ready(grove(), {}, scene::Instancing::on);
-  for (const auto traversal : all_traversals) {
+  for (const auto traversal : all_traversals(pair_)) {
     render::Settings settings = small_settings();
     settings.traversal = traversal;
     expect_equal(ready, pair_, settings);
