@@ -188,9 +188,9 @@ class NodesKernel : public TraceKernel<Probe, objects_slot> {
                    float tmax, const uint64_t* above) {
     glm::vec3 low = as_vec3(lo), high = as_vec3(hi);
     if (this->detailed() && above != nullptr) {
-      const float margin = layout::child_margin(this->load_detail(*above), this->tolerance());
-      low = low - glm::vec3(margin);
-      high = high + glm::vec3(margin);
+      const glm::vec3 margin = layout::child_margin(this->load_detail(*above), this->tolerance());
+      low = low - margin;
+      high = high + margin;
     }
     const float enter = layout::slab_enter(slabs, low, high, tmin);
     return {enter, enter <= layout::slab_exit(slabs, low, high, tmax)};

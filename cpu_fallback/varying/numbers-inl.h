@@ -90,6 +90,14 @@ HWY_ATTR inline vec1 floor(vec1 x) {
   return hn::CopySign(hn::Floor(x.v), x.v);
 }
 
+// Whole numbers of those that are; of others anything, for lanes that do nothing may hold what is no number.
+HWY_ATTR inline hn::Vec<Signeds> converted(hn::Vec<Floats> x) {
+#if HWY_TARGET == HWY_EMU128
+  x = hn::IfThenElseZero(hn::Eq(x, x), x);  // undefined there
+#endif
+  return hn::ConvertTo(Signeds(), x);
+}
+
 struct uvec1 {
   hn::Vec<Unsigneds> v;
 
@@ -98,8 +106,7 @@ struct uvec1 {
   template <std::same_as<uint32_t> T>
   HWY_ATTR uvec1(T all) : v(hn::Set(Unsigneds(), all)) {}
   HWY_ATTR explicit uvec1(ivec1 i);
-  HWY_ATTR explicit uvec1(vec1 below_2_to_31)
-      : v(hn::BitCast(Unsigneds(), hn::ConvertTo(Signeds(), below_2_to_31.v))) {}
+  HWY_ATTR explicit uvec1(vec1 below_2_to_31) : v(hn::BitCast(Unsigneds(), converted(below_2_to_31.v))) {}
 
   HWY_ATTR friend uvec1 operator+(uvec1 a, uvec1 b) { return hn::Add(a.v, b.v); }
   HWY_ATTR friend uvec1 operator-(uvec1 a, uvec1 b) { return hn::Sub(a.v, b.v); }
@@ -129,7 +136,7 @@ struct ivec1 {
   template <std::same_as<int32_t> T>
   HWY_ATTR ivec1(T all) : v(hn::Set(Signeds(), all)) {}
   HWY_ATTR explicit ivec1(uvec1 u) : v(hn::BitCast(Signeds(), u.v)) {}
-  HWY_ATTR explicit ivec1(vec1 x) : v(hn::ConvertTo(Signeds(), x.v)) {}
+  HWY_ATTR explicit ivec1(vec1 x) : v(converted(x.v)) {}
 
   HWY_ATTR friend ivec1 operator+(ivec1 a, ivec1 b) { return hn::Add(a.v, b.v); }
   HWY_ATTR friend ivec1 operator-(ivec1 a, ivec1 b) { return hn::Sub(a.v, b.v); }

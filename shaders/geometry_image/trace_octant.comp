@@ -57,9 +57,9 @@ void main() {
       vec3 high = as_vec3(hi);
       if (detailed != 0u && walk.depth != 0u) {
         uint above = (walk.order ^ walk.turns) >> 2u;
-        float margin = child_margin(load_detail(object.first_detail + level_base(walk.depth - 1u) + above), tolerance);
-        low = low - vec3(margin);
-        high = high + vec3(margin);
+        vec3 margin = child_margin(load_detail(object.first_detail + level_base(walk.depth - 1u) + above), tolerance);
+        low = low - margin;
+        high = high + margin;
       }
       enter = slab_enter(slabs, low, high, ray.tmin);
       bool inside = enter <= slab_exit(slabs, low, high, best.t);

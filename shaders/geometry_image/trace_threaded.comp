@@ -57,9 +57,9 @@ void main() {
       vec3 low = as_vec3(lo);
       vec3 high = as_vec3(hi);
       if (detailed != 0u && link != 0u) {
-        float margin = child_margin(load_detail(object.first_detail + node_above(link)), tolerance);
-        low = low - vec3(margin);
-        high = high + vec3(margin);
+        vec3 margin = child_margin(load_detail(object.first_detail + node_above(link)), tolerance);
+        low = low - margin;
+        high = high + margin;
       }
       enter = slab_enter(slabs, low, high, ray.tmin);
       bool inside = enter <= slab_exit(slabs, low, high, best.t);

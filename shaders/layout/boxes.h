@@ -126,8 +126,8 @@ FN BoxRay make_box_ray(IN(Slabs) s, IN(BoxGrid) grid) {
   return r;
 }
 
-// For boxes whose surface may be farther out by `margin`, on all sides.
-FN BoxRay widened(IN(BoxRay) ray, IN(Slabs) s, float margin) {
+// For boxes whose surface may be farther out by `margin`.
+FN BoxRay widened(IN(BoxRay) ray, IN(Slabs) s, vec3 margin) {
   BoxRay r = ray;
   vec3 reach = vec3(abs1(s.inverse.x), abs1(s.inverse.y), abs1(s.inverse.z)) * (margin * 1.0001f);
   r.near_offset = ray.near_offset - reach;

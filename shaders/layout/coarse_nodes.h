@@ -54,7 +54,7 @@ FN void measure_node(uint index) {
   float extent = max2(max2(distance_to(a, middle), distance_to(b, middle)),
                       max2(distance_to(c, middle), distance_to(d, middle)));
   float own_error = 0.0f;
-  float margin = 0.0f;
+  vec3 margin = vec3(0.0f, 0.0f, 0.0f);
   for (uint i = 0u; i < 5u; ++i) {
     uint texel = between_corners(node, i);
     if (texel != no_index) {
@@ -66,7 +66,8 @@ FN void measure_node(uint index) {
       vec3 to = i == 0u ? b : (i < 3u ? c : d);
       float apart = parent != texel ? 1.0f : 0.0f;
       own_error = max2(own_error, deviation(p, from, to) * apart);
-      margin = max2(margin, distance_to(p, position_of(parent)));
+      vec3 way = position_of(parent) - p;
+      margin = max3(margin, vec3(abs1(way.x), abs1(way.y), abs1(way.z)));
     }
   }
   float finer_error = 0.0f;
@@ -74,7 +75,7 @@ FN void measure_node(uint index) {
     if (has_child(node, k)) {
       NodeDetail child = load_detail(node.first_child + k);
       extent = max2(extent, distance_to(child.middle, middle) + child.extent);
-      finer_error = max2(finer_error, child.error);
+      finer_error = max2(finer_error, child.whole);
     }
   }
   float error = max2((own_error + finer_error) * detail_slack, least_radius);
@@ -89,8 +90,7 @@ FN void measure_node(uint index) {
   middle = flush_tiny3(middle);
   STORE4(node_details, 2u * node.node, as_bits(middle, floatBitsToUint(extent * detail_slack)));
   STORE4(node_details, 2u * node.node + 1u,
-         uvec4(floatBitsToUint(fixed_radius), floatBitsToUint(fixed_radius),
-               floatBitsToUint(margin * detail_slack), floatBitsToUint(error)));
+         settled_bits(error, fixed_radius, flush_tiny3(margin * detail_slack)));
 }
 
 // From which tolerances on it is one quad and what is between its corners slides; and the least that the
@@ -120,7 +120,5 @@ FN void settle_node(uint index, float steepest) {
     LOAD1(point, points, texel);
     RAISE(point, radius);
   }
-  STORE4(node_details, 2u * node.node + 1u,
-         uvec4(floatBitsToUint(whole), floatBitsToUint(smallest), floatBitsToUint(detail.margin),
-               floatBitsToUint(detail.error)));
+  STORE4(node_details, 2u * node.node + 1u, settled_bits(whole, smallest, detail.margin));
 }

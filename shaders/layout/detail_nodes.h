@@ -78,16 +78,24 @@ FN CoarseNode coarse_node(uvec4 a, uvec4 b) {
 }
 
 // The detail of a node, two quads: { a point, within `extent` of which is all of it }, { tolerance from which
-// on it is its quad, tolerance from which on texels between its corners slide, how far they can, error }.
-// Nodes that are not of one chart are never their quad.
+// on it is its quad, tolerance from which on texels between its corners slide, how far they can along x and y
+// (16 bits each, the upper half of a float, rounded up) and z }. Nodes that are not of one chart are never
+// their quad.
 struct NodeDetail {
   vec3 middle;
   float extent;
-  float whole;
+  float whole;  // until it is settled: the error of its quad
   float moves;
-  float margin;
-  float error;
+  vec3 margin;
 };
+
+FN uint upper_half(float x) {
+  return (floatBitsToUint(x) + 0xffffu) >> 16u;
+}
+FN uvec4 settled_bits(float whole, float moves, vec3 margin) {
+  return uvec4(floatBitsToUint(whole), floatBitsToUint(moves),
+               upper_half(margin.x) | upper_half(margin.y) << 16u, floatBitsToUint(margin.z));
+}
 
 FN NodeDetail node_detail(uvec4 a, uvec4 b) {
   NodeDetail d;
@@ -95,17 +103,18 @@ FN NodeDetail node_detail(uvec4 a, uvec4 b) {
   d.extent = uintBitsToFloat(a.w);
   d.whole = uintBitsToFloat(b.x);
   d.moves = uintBitsToFloat(b.y);
-  d.margin = uintBitsToFloat(b.z);
-  d.error = uintBitsToFloat(b.w);
+  d.margin = vec3(uintBitsToFloat(b.z << 16u), uintBitsToFloat(b.z & 0xffff0000u), uintBitsToFloat(b.w));
   return d;
 }
 
 FN bool is_whole(IN(NodeDetail) d, IN(Tolerance) t) {
   return d.whole < fixed_radius && least_tolerance(t, d.middle, d.extent) >= d.whole;
 }
-// How far the bounds of its children must be widened.
-FN float child_margin(IN(NodeDetail) d, IN(Tolerance) t) {
-  return largest_tolerance(t, d.middle, d.extent) * detail_slack > d.moves ? d.margin : 0.0f;
+// How far the bounds of its children must be widened: as far as that which slides first can have come.
+FN vec3 child_margin(IN(NodeDetail) d, IN(Tolerance) t) {
+  float largest = largest_tolerance(t, d.middle, d.extent) * detail_slack;
+  float part = min2((largest - d.moves) / d.moves * detail_slack, 1.0f);
+  return d.margin * (largest > d.moves ? part : 0.0f);
 }
 
 // Coarse quads, a quad buffer: what a node is a quad of, { texel of corner a, to b, to c, level }.

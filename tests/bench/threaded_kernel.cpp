@@ -61,11 +61,15 @@ void ThreadedKernel::load_rays(const Rays& rays) {
 }
 
 void ThreadedKernel::trace() {
-  const std::array<render::BufferId, 12> buffers = {rays_.rays.id(),   geometry_.id(),   rays_.hits.id(),
-                                                    rays_.states.id(), rays_.steps.id(), pending_.id(),
-                                                    nodes_lo_.id(),    nodes_hi_.id(),   links_.id(),
-                                                    objects_.id(),     rays_.steps.id(), rays_.steps.id()};
-  layout::TracePush push{ray_count_, 0, loop_budget, 0, 0};
+  // Without instances, motion and levels of detail the last six are read by nothing.
+  const std::array<render::BufferId, 16> buffers = {
+      rays_.rays.id(),  geometry_.id(), rays_.hits.id(),  rays_.states.id(),
+      rays_.steps.id(), pending_.id(),  nodes_lo_.id(),   nodes_hi_.id(),
+      links_.id(),      objects_.id(),  rays_.steps.id(), rays_.steps.id(),
+      rays_.steps.id(), geometry_.id(), geometry_.id(),   geometry_.id()};
+  layout::TracePush push{};
+  push.rays = ray_count_;
+  push.budget = loop_budget;
   for (uint32_t pending = 1; pending != 0; push.resume = 1) {
     pending = 0;
     backend_->upload(pending_.id(), std::as_bytes(std::span(&pending, 1)));
