@@ -5,11 +5,11 @@
 //
 // A ray sees a surface in which texels have collapsed: each texel may slide to its parent, one of the next
 // level, and has then vanished. How far it has slid depends on the texel and on the ray's tolerance there,
-// and on nothing else: not at all where the tolerance is at most the texel's radius, wholly from twice that
-// on. So every texel has one place for a ray, whichever quads and charts it is a corner of, and the surface
-// that the ray sees is the finest one with its corners moved: what is closed stays closed, exactly, with
-// whatever levels beside each other; and as tolerances change from ray to ray or frame to frame it slides,
-// and nothing pops.
+// and on nothing else: not at all where the tolerance is at most the texel's radius, wholly from a quarter
+// more on. So every texel has one place for a ray, whichever quads and charts it is a corner of, and the
+// surface that the ray sees is the finest one with its corners moved: what is closed stays closed, exactly,
+// with whatever levels beside each other; and as tolerances change from ray to ray or frame to frame it
+// slides, and nothing pops.
 //
 // Where all texels between the corners of a node have collapsed, that surface is the node's two triangles.
 // Traversals stop there and test that quad, by the same test (layout/trace.h). A node says from which
@@ -92,11 +92,14 @@ FN vec1 scattered_spread(vec1 density, float camera_spread, float steepest) {
   return select(density > 0.0f, min2(camera_spread + lobe, steepest), vec1(camera_spread));
 }
 
+// A texel slides while the tolerance grows by this part of its radius: long enough to be seen as a slide, and
+// short, because what slides needs wider bounds.
+CONST float slide_band = 0.25f;
 CONST float least_radius = 1e-18f;
 CONST float fixed_radius = infinity_bits_as_max;  // of a texel that never collapses
 // How far a texel has slid, in [0, 1].
 FN vec1 collapse_of(vec1 tolerance, vec1 radius) {
-  vec1 part = (tolerance - radius) / radius;
+  vec1 part = (tolerance - radius) / (radius * slide_band);
   return select(tolerance > radius, min2(part, 1.0f), vec1(0.0f));
 }
 FN vec3 slid(vec3 own, vec3 parent, vec1 part) {

@@ -33,7 +33,7 @@ CONST float detail_slack = 1.000244140625f;  // 1 + 2^-12
 
 // From here on a node is its quad.
 FN float whole_from(float largest_radius) {
-  return largest_radius < 1e37f ? 2.0f * largest_radius * detail_slack : fixed_radius;
+  return largest_radius < 1e37f ? (1.0f + slide_band) * largest_radius * detail_slack : fixed_radius;
 }
 // The least radius of the corners of a node that is its quad from `whole` on and within `extent` of a point.
 FN float corner_radius(float whole, float extent, float steepest) {
@@ -113,7 +113,7 @@ FN bool is_whole(IN(NodeDetail) d, IN(Tolerance) t) {
 // How far the bounds of its children must be widened: as far as that which slides first can have come.
 FN vec3 child_margin(IN(NodeDetail) d, IN(Tolerance) t) {
   float largest = largest_tolerance(t, d.middle, d.extent) * detail_slack;
-  float part = min2((largest - d.moves) / d.moves * detail_slack, 1.0f);
+  float part = min2((largest - d.moves) / (d.moves * slide_band) * detail_slack, 1.0f);
   return d.margin * (largest > d.moves ? part : 0.0f);
 }
 
