@@ -16,19 +16,23 @@
 namespace lodestone::test {
 namespace {
 
-std::vector<glm::uvec4> hits_of(const ReadyScene& ready, const std::string& device,
-                                render::Traversal traversal, const Rays& rays, uint32_t threads = 0,
-                                uint32_t budget = 4000) {
-  const auto backend = open(device, {.threads = threads});
+std::vector<glm::uvec4> hits_on(render::Backend& backend, const ReadyScene& ready,
+                                render::Traversal traversal, const Rays& rays, uint32_t budget = 4000) {
   render::Settings settings;
   settings.width = settings.height = 8;
   settings.traversal = traversal;
   settings.loop_budget = budget;
-  render::Renderer renderer(*backend, ready.scene, ready.assembly, ready.atlas, settings);
+  render::Renderer renderer(backend, ready.scene, ready.assembly, ready.atlas, settings);
   renderer.update(ready.pose(0.4f));
   renderer.load_rays(rays);
   renderer.trace_loaded();
   return renderer.hits();
+}
+
+// On the CPU.
+std::vector<glm::uvec4> hits_of(const ReadyScene& ready, render::Traversal traversal, const Rays& rays,
+                                uint32_t threads = 0) {
+  return hits_on(*open("cpu", {.threads = threads}), ready, traversal, rays);
 }
 
 uint64_t count_hits(const std::vector<glm::uvec4>& hits) {
@@ -37,26 +41,39 @@ uint64_t count_hits(const std::vector<glm::uvec4>& hits) {
   return count;
 }
 
-void expect_all_equal(const ReadyScene& ready, const Rays& rays) {
-  const auto expected = hits_of(ready, "cpu", render::Traversal::threaded, rays);
-  EXPECT_GT(count_hits(expected), rays.size() / 20);
-  EXPECT_EQ(hits_of(ready, "cpu", render::Traversal::octant, rays), expected);
-  EXPECT_EQ(hits_of(ready, "cpu", render::Traversal::wide, rays), expected);
-  EXPECT_EQ(hits_of(ready, "cpu", render::Traversal::wide, rays, 1), expected);
-  for (const std::string& device : device_names()) {
-    if (device == "cpu") continue;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::threaded, rays), expected) << device;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::octant, rays), expected) << device;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::octant, rays, 0, 50), expected) << device;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::wide, rays), expected) << device;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::wide, rays, 0, 50), expected) << device;
-    if (open(device)->info().subgroup_size != layout::tile_lanes) continue;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::tile, rays), expected) << device;
-    EXPECT_EQ(hits_of(ready, device, render::Traversal::tile, rays, 0, 5), expected) << device;
+// Devices are opened once a test: making their kernels takes longer than most of these rays.
+class Traversals : public testing::Test {
+ protected:
+  void expect_all_equal(const ReadyScene& ready, const Rays& rays) {
+    using render::Traversal;
+    const auto expected = hits_of(ready, Traversal::threaded, rays);
+    EXPECT_GT(count_hits(expected), rays.size() / 20);
+    EXPECT_EQ(hits_of(ready, Traversal::octant, rays), expected);
+    EXPECT_EQ(hits_of(ready, Traversal::wide, rays), expected);
+    EXPECT_EQ(hits_of(ready, Traversal::wide, rays, 1), expected);
+    for (const auto& device : devices_) {
+      const std::string& name = device->info().name;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::threaded, rays), expected) << name;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::octant, rays), expected) << name;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::octant, rays, 50), expected) << name;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::wide, rays), expected) << name;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::wide, rays, 50), expected) << name;
+      if (device->info().subgroup_size != layout::tile_lanes) continue;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::tile, rays), expected) << name;
+      EXPECT_EQ(hits_on(*device, ready, Traversal::tile, rays, 5), expected) << name;
+    }
   }
-}
 
-TEST(Traversals, AgreeOnRandomRays) {
+ private:
+  static std::vector<std::unique_ptr<render::Backend>> opened() {
+    std::vector<std::unique_ptr<render::Backend>> devices;
+    for (const std::string& name : vulkan_device_names()) devices.push_back(open(name));
+    return devices;
+  }
+  const std::vector<std::unique_ptr<render::Backend>> devices_ = opened();
+};
+
+TEST_F(Traversals, AgreeOnRandomRays) {
   expect_all_equal(ReadyScene("builtin:spheres"), random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 1));
   expect_all_equal(ReadyScene("builtin:spheres", geometry_image::AtlasKind::exact),
                    random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 2));
@@ -64,19 +81,19 @@ TEST(Traversals, AgreeOnRandomRays) {
                    random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 3));
 }
 
-TEST(Traversals, AgreeThroughInstances) {
+TEST_F(Traversals, AgreeThroughInstances) {
   expect_all_equal(ReadyScene(grove(), {}, scene::Instancing::on),
                    random_rays({-2.5f, -1.5f, -2}, {2.5f, 2.5f, 2}, 20000, 4));
   expect_all_equal(ReadyScene(swarm(500, 3), {}, scene::Instancing::on),
                    random_rays({-3, -3, -3}, {3, 3, 3}, 20000, 5));
 }
 
-TEST(Traversals, AgreeOnPrimaryRaysWhichTravelAsPackets) {
+TEST_F(Traversals, AgreeOnPrimaryRaysWhichTravelAsPackets) {
   expect_all_equal(ReadyScene(grid_sphere(64)), primary_rays({1.5f, 1, 3}, {0, 0, 0}, 0.4f, 128));
   expect_all_equal(ReadyScene(grid_sphere(37)), primary_rays({0, 0.3f, 3}, {0, 0, 0}, 0.4f, 64));
 }
 
-TEST(Traversals, AgreeOnRaysThroughVerticesAndEdges) {
+TEST_F(Traversals, AgreeOnRaysThroughVerticesAndEdges) {
   const ReadyScene ready(grid_sphere(24));
   const auto texels = ready.texels(ready.pose(0));
   const QuadTriangles quads = quad_triangles(ready.atlas);
@@ -114,7 +131,7 @@ scene::Scene long_way(uint32_t count) {
   return scene;
 }
 
-TEST(Traversals, GoOnWhereADeviceCutsLoops) {
+TEST_F(Traversals, GoOnWhereADeviceCutsLoops) {
   const ReadyScene ready(long_way(24000), geometry_image::AtlasKind::exact);
   Rays rays;
   for (int i = 0; i < 16; ++i) add_ray(rays, {0.9f, 0.9f - 0.001f * static_cast<float>(i), 2}, {0, 0, -1});
@@ -143,7 +160,7 @@ TEST(Traversals, GoOnWhereADeviceCutsLoops) {
 
 // Bounds in 16 bits, flat ones, seen from so far that rounding enters empty children too; trees of odd and
 // even depth.
-TEST(Traversals, AgreeOnFlatSurfacesFromFarAway) {
+TEST_F(Traversals, AgreeOnFlatSurfacesFromFarAway) {
   for (const uint32_t quads : {3u, 7u, 20u}) {
     for (int axis = 0; axis < 3; ++axis) {
       scene::Scene flat = grid_sphere(quads);
@@ -165,18 +182,17 @@ TEST(Traversals, AgreeOnFlatSurfacesFromFarAway) {
   }
 }
 
-TEST(Traversals, AgreeAtEveryVectorWidth) {
+TEST_F(Traversals, AgreeAtEveryVectorWidth) {
   const ReadyScene ready(grid_sphere(48));
   Rays rays = primary_rays({1.5f, 1, 3}, {0, 0, 0}, 0.4f, 64);
   const Rays more = random_rays({-1, -1, -1}, {1, 1, 1}, 4000, 9);
   rays.insert(rays.end(), more.begin(), more.end());
-  const auto expected = hits_of(ready, "cpu", render::Traversal::threaded, rays);
+  const auto expected = hits_of(ready, render::Traversal::threaded, rays);
   const int64_t all = hwy::SupportedTargets();
   int widths = 0;
   for (int64_t rest = all; rest != 0; rest &= rest - 1) {
     hwy::SetSupportedTargetsForTest(rest & -rest);
-    EXPECT_EQ(hits_of(ready, "cpu", render::Traversal::wide, rays), expected)
-        << hwy::TargetName(rest & -rest);
+    EXPECT_EQ(hits_of(ready, render::Traversal::wide, rays), expected) << hwy::TargetName(rest & -rest);
     ++widths;
   }
   hwy::SetSupportedTargetsForTest(0);

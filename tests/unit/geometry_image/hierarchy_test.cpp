@@ -80,6 +80,8 @@ TEST(Hierarchy, HoldsEveryQuadOnceAndEveryChartInASubtree) {
     const scene::Assembly assembly = scene::assemble(scene);
     for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact, AtlasKind::charts}) {
       for (const ChartOrder order : {ChartOrder::median, ChartOrder::hilbert}) {
+        // Where some charts are resampled none are ordered (slots.h).
+        if (kind != AtlasKind::exact && order != ChartOrder::median) continue;
         const Atlas atlas = build_atlas(scene, assembly, kind, order);
         expect_every_quad_once(atlas);
         expect_charts_to_be_subtrees(atlas);
