@@ -39,7 +39,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
     this->store_own(rays_, as_bits(next_.origin, floatBitsToUint(next_.tmin)), 2);
     this->store_own(rays_, as_bits(next_.direction, floatBitsToUint(next_.tmax)), 2, 1);
     this->store_own(paths_, branch_bits(branch_));
-    if (this->placing == 2) this->store_cone(cone_);
+    if (this->placing == placing_cones) this->store_cone(cone_);
   }
 
  private:
@@ -47,7 +47,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
 
   // The first of three quads, or with cones five.
   HWY_ATTR uvec1 place_of(uvec1 slot) const {
-    return (slot * push_.rays + this->own_index()) * (this->placing == 2 ? 5u : 3u);
+    return (slot * push_.rays + this->own_index()) * (this->placing == placing_cones ? 5u : 3u);
   }
 
   HWY_ATTR void scatter(const uvec4& hit, const vec3& direction) {
@@ -72,7 +72,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
     const bvec1 carries = this->active() && !(max_component(branch.throughput) < smallest_throughput);
     const vec1 side = select(drawn.through, -1.0f, 1.0f);
     next_ = select(carries, leaving_ray(surface, drawn.direction, side, 1e30f), next_);
-    if (this->placing == 2) {
+    if (this->placing == placing_cones) {
       const FrameRecord& frame = this->frames[0];
       const vec1 spread = scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest);
       cone_ = select(this->active(), this->cone_from(point, surface, spread), cone_);
@@ -88,7 +88,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
     const bvec1 mirrors = !(max_component(mirrored) < smallest_throughput),
                 passes = !(max_component(passed) < smallest_throughput);
     const Ray through = leaving_ray(surface, two.passed, -1.0f, 1e30f);
-    if (this->placing == 2) {
+    if (this->placing == placing_cones) {
       const RayCone cone = this->cone_from(point, surface, vec1(this->frames[0].tolerance_spread));
       cone_ = select(this->active(), cone, cone_);
     }
@@ -99,7 +99,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
       this->store(branches_, place, as_bits(through.origin, floatBitsToUint(through.tmin)));
       this->store(branches_, place, as_bits(through.direction, floatBitsToUint(through.tmax)), 1, 1);
       this->store(branches_, place, branch_bits(waiting), 1, 2);
-      if (this->placing == 2) {
+      if (this->placing == placing_cones) {
         this->store(branches_, place, as_bits(cone_.apex, floatBitsToUint(cone_.width)), 1, 3);
         this->store(branches_, place, uvec4(floatBitsToUint(cone_.spread), 0u, 0u, 0u), 1, 4);
       }
@@ -116,7 +116,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
     const Ray ray = stored_ray(this->load(branches_, place), this->load(branches_, place, 1, 1));
     Branch branch = stored_branch(this->load(branches_, place, 1, 2));
     branch.left = left;
-    if (this->placing == 2) {
+    if (this->placing == placing_cones) {
       const RayCone cone =
           stored_cone(this->load(branches_, place, 1, 3), this->load(branches_, place, 1, 4));
       cone_ = select(this->active(), cone, cone_);

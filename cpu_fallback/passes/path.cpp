@@ -86,7 +86,7 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
     const vec1 side_of_next = select(drawn.through, -1.0f, 1.0f);
     next_ = select(this->active(), leaving_ray(surface, drawn.direction, side_of_next, 1e30f), next_);
     this->add(going_on_, 0, this->active_count());
-    if (this->placing != 2) return;
+    if (this->placing != placing_cones) return;
     const FrameRecord& frame = this->frames[0];
     this->store_cone(this->cone_from(
         point, surface, scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest)));

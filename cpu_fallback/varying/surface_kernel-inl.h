@@ -79,7 +79,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Words ray_words = this->words(16);
   Quads instances = this->quads(17);
   Words collapses = this->words(18);
-  uint32_t placing = this->constant(4), instanced = placing & 1, segments = this->constant(5);
+  uint32_t placing = this->constant(4), instanced = placing & placing_instances, segments = this->constant(5);
 
   static constexpr uint32_t sources = source_count, layered = is_layered ? 1 : 0;
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)
@@ -111,7 +111,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
     const FrameRecord& frame = frames[0];
     t.camera = {frame.origin, frame.tolerance, frame.tolerance_spread};
     t.scattered = no_cone();
-    if (placing == 2 && scattered)
+    if (placing == placing_cones && scattered)
       t.scattered = stored_cone(this->load_own(instances, 2), this->load_own(instances, 2, 1));
     return t;
   }

@@ -17,7 +17,7 @@ PUSH(PathPush, push);
 
 layout(constant_id = 5) const uint recursion = recursion_specular;
 
-uint branch_place(uint index, uint slot) { return (placing == 2u ? 5u : 3u) * (slot * push.rays + index); }
+uint branch_place(uint index, uint slot) { return (placing == placing_cones ? 5u : 3u) * (slot * push.rays + index); }
 
 void main() {
   uint index = invocation();
@@ -56,7 +56,7 @@ void main() {
       branch.throughput = flush_lost3(branch.throughput * drawn.weight);
       if (!(max_component(branch.throughput) < smallest_throughput))
         next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
-      if (placing == 2u) {
+      if (placing == placing_cones) {
         float spread = scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest);
         cone = leaving_cone(point, surface.position, tolerance_of(index), spread);
       }
@@ -67,7 +67,7 @@ void main() {
       bool mirrors = !(max_component(mirrored) < smallest_throughput);
       bool passes = !(max_component(passed) < smallest_throughput);
       Ray through = leaving_ray(surface, two.passed, -1.0, 1e30);
-      if (placing == 2u)
+      if (placing == placing_cones)
         cone = leaving_cone(point, surface.position, tolerance_of(index), frames[0].tolerance_spread);
       if (mirrors && passes) {
         uint place = branch_place(index, branch.left);
@@ -76,7 +76,7 @@ void main() {
         STORE4(branches, place, as_bits(through.origin, floatBitsToUint(through.tmin)));
         STORE4(branches, place + 1u, as_bits(through.direction, floatBitsToUint(through.tmax)));
         STORE4(branches, place + 2u, branch_bits(waiting));
-        if (placing == 2u) STORE_CONE(branches, place + 3u, cone);
+        if (placing == placing_cones) STORE_CONE(branches, place + 3u, cone);
         branch.left += 1u;
       }
       branch.throughput = mirrors ? mirrored : passed;
@@ -94,7 +94,7 @@ void main() {
     LOAD4(to, branches, place + 1u);
     LOAD4(stored, branches, place + 2u);
     next = stored_ray(from, to);
-    if (placing == 2u) {
+    if (placing == placing_cones) {
       LOAD4(from, branches, place + 3u);
       LOAD4(to, branches, place + 4u);
       cone = stored_cone(from, to);
@@ -106,6 +106,6 @@ void main() {
   STORE4(rays, 2u * index, as_bits(next.origin, floatBitsToUint(next.tmin)));
   STORE4(rays, 2u * index + 1u, as_bits(next.direction, floatBitsToUint(next.tmax)));
   STORE4(paths, index, branch_bits(branch));
-  if (placing == 2u) STORE_CONE(instances, 2u * index, cone);
+  if (placing == placing_cones) STORE_CONE(instances, 2u * index, cone);
   flush_counters();
 }

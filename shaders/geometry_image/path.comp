@@ -102,7 +102,7 @@ void main() {
     if (push.vertex < push.last_vertex && max_component(path.throughput) > 0.0) {
       next = leaving_ray(surface, drawn.direction, drawn.through ? -1.0 : 1.0, 1e30);
       atomicAdd(going_on[0], 1u);
-      if (placing == 2u) {
+      if (placing == placing_cones) {
         float spread = scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest);
         RayCone cone = leaving_cone(point, surface.position, tolerance_of(index), spread);
         STORE_CONE(instances, 2u * index, cone);

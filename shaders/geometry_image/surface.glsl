@@ -32,8 +32,8 @@ WORDS(18, readonly, collapses);
 
 layout(constant_id = 2) const uint sources = 1u;
 layout(constant_id = 3) const uint layered = 0u;
-layout(constant_id = 6) const uint placing = 0u;  // what slot 17 has: 1 instances, 2 cones
-const uint instanced = placing & 1u;
+layout(constant_id = 6) const uint placing = 0u;  // what slot 17 has (layout/detail.h)
+const uint instanced = placing & placing_instances;
 layout(constant_id = 7) const uint segments = 0u;
 
 #define WHERE(condition) if (condition)
@@ -69,7 +69,7 @@ Tolerance tolerance_of(uint index) {
   tolerance.camera.width = frames[0].tolerance;
   tolerance.camera.spread = frames[0].tolerance_spread;
   tolerance.scattered = no_cone();
-  if (placing == 2u && scattered) {
+  if (placing == placing_cones && scattered) {
     uvec4 a;
     uvec4 b;
     LOAD4(a, instances, 2u * index);

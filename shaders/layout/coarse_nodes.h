@@ -50,7 +50,7 @@ FN void measure_node(uint index) {
   vec3 b = position_of(node.texel + node.across);
   vec3 c = position_of(node.texel + node.along);
   vec3 d = position_of(node.texel + node.across + node.along);
-  vec3 middle = (b + c) * 0.5f;
+  vec3 middle = flush_tiny3((b + c) * 0.5f);
   float extent = max2(max2(distance_to(a, middle), distance_to(b, middle)),
                       max2(distance_to(c, middle), distance_to(d, middle)));
   float own_error = 0.0f;
@@ -87,7 +87,6 @@ FN void measure_node(uint index) {
       RAISE(point, error);
     }
   }
-  middle = flush_tiny3(middle);
   STORE4(node_details, 2u * node.node, as_bits(middle, floatBitsToUint(extent * detail_slack)));
   STORE4(node_details, 2u * node.node + 1u,
          settled_bits(error, fixed_radius, flush_tiny3(margin * detail_slack)));

@@ -29,10 +29,14 @@
 
 LODESTONE_LAYOUT_BEGIN
 
-// What a ray tolerates at a point: the largest of two cones, that of the camera and one that rays get where
-// they are scattered. A cone's width is that of its axis at the apex and grows with the distance from there.
 CONST uint detailed_sources = 6u;  // of a hit, see layout/surface.h
 
+// What a binding that two features share has in a dispatch: the instances, or the cones of scattered rays.
+CONST uint placing_instances = 1u;
+CONST uint placing_cones = 2u;
+
+// What a ray tolerates at a point: the largest of two cones, that of the camera and one that rays get where
+// they are scattered. A cone is as wide as it says at its apex and wider with the distance from there.
 struct RayCone {
   vec3 apex;
   vec1 width;  // may be negative, then the cone begins farther away
@@ -95,8 +99,9 @@ FN vec1 scattered_spread(vec1 density, float camera_spread, float steepest) {
 // A texel slides while the tolerance grows by this part of its radius: long enough to be seen as a slide, and
 // short, because what slides needs wider bounds.
 CONST float slide_band = 0.25f;
-CONST float least_radius = 1e-18f;
+CONST float least_radius = 1e-18f;                // so that products with it are no denormals
 CONST float fixed_radius = infinity_bits_as_max;  // of a texel that never collapses
+
 // How far a texel has slid, in [0, 1].
 FN vec1 collapse_of(vec1 tolerance, vec1 radius) {
   vec1 part = (tolerance - radius) / (radius * slide_band);

@@ -6,7 +6,6 @@
 #include <bit>
 #include <functional>
 #include <numeric>
-#include <span>
 
 #include "lodestone/geometry_image/quad_order.h"
 #include "lodestone/geometry_image/weld.h"
@@ -109,7 +108,7 @@ class Maker {
   void settle();
   bool find_steps();
   bool is_able(const Node& node) const;
-  bool fix(uint32_t texel);
+  void fix(uint32_t texel) { fixed_[points_[texel]] = true; }
   CollapseMap write() const;
   CoarseNode described(const Node& node) const;
 
@@ -136,7 +135,6 @@ class Maker {
   const Atlas& atlas_;
   std::vector<Rectangle> rectangles_;
   std::vector<uint32_t> points_, parents_;
-  std::vector<std::vector<uint32_t>> neighbours_;  // along borders, of points that are on some
   std::vector<bool> fixed_;
   std::vector<Node> nodes_;  // children before their parents within a chart
 };
@@ -162,13 +160,6 @@ void Maker::find_points() {
   for (size_t i = 1; i < recipes.size(); ++i) {
     if (recipes[i].parts == recipes[i - 1].parts) points_[recipes[i].texel] = points_[recipes[i - 1].texel];
   }
-}
-
-bool Maker::fix(uint32_t texel) {
-  const uint32_t point = points_[texel];
-  const bool was = fixed_[point];
-  fixed_[point] = true;
-  return !was;
 }
 
 // Corners of charts stay, and so does whatever is not simply between two others on all borders it lies on.

@@ -160,9 +160,15 @@ void Renderer::State::rasterise(uint32_t first_texel, uint32_t image) {
       layout::RasterisePush{first_texel, texels, image}, texels);
 }
 
-// blend, relax, rasterise, bounds: everything that follows from the pose.
-void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter,
-                             const layout::RayCone& camera) {
+// Null: nothing is tolerated.
+void Renderer::State::look_from(const View* view) {
+  camera = view == nullptr ? layout::RayCone{}
+                           : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error);
+  tracing.set_camera(camera);
+}
+
+// blend, relax, rasterise, detail, bounds: everything that follows from the pose.
+void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter) {
   const bool moves = settings.shutter_segments > 0;
   if (relaxation || !moves) blend(pose, positions);
   if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
@@ -175,7 +181,6 @@ void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>&
   }
   rasterise(first_texel, 0);
   if (detail) detail->build(geometry, steepest_cone(camera));
-  tracing.set_camera(camera);
   const std::vector<scene::Bounds> boxes = object_boxes(pose);
   tracing.build(geometry, boxes, first);
   if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, tracing.objects());
@@ -269,10 +274,9 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
   }
   record.segments = settings.shutter_segments;
   record.image_texels = static_cast<uint32_t>(atlas.texel_map.size());
-  const layout::RayCone cone = camera_cone(view, settings.width, settings.height, settings.pixels_of_error);
-  record.tolerance = cone.width;
-  record.tolerance_spread = cone.spread;
-  record.steepest = steepest_cone(cone);
+  record.tolerance = camera.width;
+  record.tolerance_spread = camera.spread;
+  record.steepest = steepest_cone(camera);
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
   if (record.segments > 0) upload_cameras(record, shutter);
 }
@@ -366,9 +370,8 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
   const uint32_t segments = s.settings.shutter_segments;
   if (shutter.size() != (segments > 0 ? segments + 1 : 0))
     fail(ExitCode::usage, "shutter", "{} moments are not the ends of {} segments", shutter.size(), segments);
-  const layout::RayCone camera =
-      camera_cone(view, s.settings.width, s.settings.height, s.settings.pixels_of_error);
-  s.update(pose, shutter, camera);
+  s.look_from(&view);
+  s.update(pose, shutter);
   s.begin_frame(pose, view, shutter);
   const uint32_t total = s.total_rays();
   for (uint32_t first = 0; first < total; first += s.batch_rays) {
@@ -407,11 +410,8 @@ Traversal Renderer::traversal() const {
   return state_->tracing.traversal();
 }
 void Renderer::update(const scene::Pose& pose, const View* view) {
-  const Settings& settings = state_->settings;
-  state_->update(pose, {},
-                 view == nullptr
-                     ? layout::RayCone{}
-                     : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error));
+  state_->look_from(view);
+  state_->update(pose, {});
 }
 
 std::vector<glm::uvec4> Renderer::texel_map() {

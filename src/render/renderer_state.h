@@ -42,6 +42,7 @@ struct Renderer::State {
   // Rewritten every frame.
   Buffer weights, matrices, positions, normals, tangents, geometry, normal_map;
   Buffer frame, lights, cameras;
+  layout::RayCone camera{};  // what rays tolerate that have not been scattered
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
   bool loaded_together = false;  // see TraceQuery::common_origin
@@ -82,13 +83,15 @@ struct Renderer::State {
   // `scattered`: what the pass works on can have cones.
   std::array<uint32_t, pass_constants> surface_constants(uint32_t recursion = layout::recursion_none,
                                                          bool scattered = false) const {
-    const uint32_t placing = instances ? 1 : (scattered && has_cones() ? 2 : 0);
+    const uint32_t placing = instances                  ? layout::placing_instances
+                             : scattered && has_cones() ? layout::placing_cones
+                                                        : 0;
     return {sources(), tables.layered, environment.map, recursion, placing, settings.shutter_segments};
   }
 
   // Of those that take every surface for a plain one.
   std::array<uint32_t, pass_constants> plain_constants() const {
-    return {sources(), 0, 0, 0, instances ? 1u : 0u, settings.shutter_segments};
+    return {sources(), 0, 0, 0, instances ? layout::placing_instances : 0, settings.shutter_segments};
   }
 
   // A shadow ray's time is that of the ray it comes from.
@@ -109,9 +112,10 @@ struct Renderer::State {
   void prepare_relaxation();
   void blend(const scene::Pose& pose, const Buffer& blended_positions);
   void rasterise(uint32_t first_texel, uint32_t image);
-  void update(const scene::Pose& pose, const std::vector<Moment>& shutter, const layout::RayCone& camera);
+  void update(const scene::Pose& pose, const std::vector<Moment>& shutter);
   void update_moving(const scene::Pose& pose, const std::vector<Moment>& shutter);
   float find_focus(const View& view);
+  void look_from(const View* view);
   void begin_frame(const scene::Pose& pose, const View& view, const std::vector<Moment>& shutter);
   void upload_cameras(const layout::FrameRecord& record, const std::vector<Moment>& shutter);
   std::vector<scene::Bounds> object_boxes(const scene::Pose& pose) const;
