@@ -11,8 +11,14 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 find_program(LODESTONE_CCACHE ccache)
 if(LODESTONE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${LODESTONE_CCACHE})
+  # What ccache asks for where headers are precompiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${LODESTONE_CCACHE})
 endif()
+
+# Headers of others that most files read: two thirds of the time of compiling a file that does little.
+# CMAKE_DISABLE_PRECOMPILE_HEADERS=ON (the presets of the sanitizers) shows whether each file includes what it uses.
+set(LODESTONE_PRECOMPILED <algorithm> <filesystem> <fstream> <functional> <map> <optional> <random> <sstream> <string> <vector>
+    <fmt/format.h> <glm/glm.hpp>)
 
 add_library(lodestone_options INTERFACE)
 set_target_properties(lodestone_options PROPERTIES EXPORT_NAME options)
@@ -42,6 +48,17 @@ function(lodestone_include_root target name folder)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include>)
 endfunction()
 
+# The first library to ask makes the headers, the others take them.
+function(lodestone_precompile target)
+  get_property(maker GLOBAL PROPERTY LODESTONE_PRECOMPILED_BY)
+  if(maker)
+    target_precompile_headers(${target} REUSE_FROM ${maker})
+  else()
+    target_precompile_headers(${target} PRIVATE ${LODESTONE_PRECOMPILED})
+    set_property(GLOBAL PROPERTY LODESTONE_PRECOMPILED_BY ${target})
+  endif()
+endfunction()
+
 function(lodestone_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_library(lodestone_${name} STATIC ${arg_SOURCES})
@@ -49,5 +66,6 @@ function(lodestone_library name)
   set_target_properties(lodestone_${name} PROPERTIES EXPORT_NAME ${name})
   lodestone_include_root(lodestone_${name} ${name} ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(lodestone_${name} PUBLIC lodestone_options ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
+  lodestone_precompile(lodestone_${name})
   set_property(GLOBAL APPEND PROPERTY LODESTONE_LIBRARIES lodestone_${name})
 endfunction()

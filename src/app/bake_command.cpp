@@ -2,6 +2,7 @@
 #include "lodestone/app/bake_command.h"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -2,6 +2,7 @@
 #include "lodestone/app/common_options.h"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <array>

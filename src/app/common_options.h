@@ -4,7 +4,6 @@
 // it.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestone/app/cli.h"
 #include "lodestone/app/parse_values.h"
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/render/backend.h"

@@ -2,6 +2,7 @@
 #include "lodestone/app/compare_command.h"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <limits>
 #include <memory>

@@ -2,6 +2,7 @@
 #include "lodestone/app/devices_command.h"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>

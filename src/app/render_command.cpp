@@ -2,6 +2,7 @@
 #include "lodestone/app/render_command.h"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <memory>

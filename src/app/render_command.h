@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/App.hpp>
 #include <functional>
+
+#include "lodestone/app/cli.h"
 
 namespace lodestone::app {
 

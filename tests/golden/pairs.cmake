@@ -7,6 +7,10 @@ if(count LESS 2)
 endif()
 foreach(a ${images})
   foreach(b ${images})
+    # Either way round is the same.
+    if(a STRGREATER b)
+      continue()
+    endif()
     execute_process(COMMAND ${LODESTONE} compare ${a} ${b} --pixel 0.0079 --pixel-share 0.0005 -q
                     RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
     set(expected 1)

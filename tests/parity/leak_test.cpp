@@ -63,7 +63,7 @@ TEST_P(Leaks, NoneFromTheArmadilloAsMappedCharts) {
   expect_none(leaks(ReadyScene(*file, geometry_image::AtlasKind::charts), GetParam(), 300000));
 }
 
-INSTANTIATE_TEST_SUITE_P(, Leaks, testing::ValuesIn(device_names()),
+INSTANTIATE_TEST_SUITE_P(, Leaks, testing::ValuesIn(judged_device_names()),
                          [](const auto& each) { return each.param; });
 
 // One chart's copy of an edge midpoint moved along the edge's other side: a gap as wide as a hundredth of a

@@ -16,6 +16,10 @@ std::vector<std::string> device_names();
 // The same without "cpu".
 std::vector<std::string> vulkan_device_names();
 
+// For what takes long and whose passes the parity tests compare to the bit on every device: SwiftShader,
+// which compiles slowly, only where $LODESTONE_ALL_TESTS is set (scripts/test --all).
+std::vector<std::string> judged_device_names();
+
 // Throws Error(device).
 std::unique_ptr<render::Backend> open(const std::string& name, const render::BackendOptions& options = {});
 

@@ -79,6 +79,8 @@ TEST(Hierarchy, HoldsEveryQuadOnceAndEveryChartInASubtree) {
     const scene::Scene scene = mixed_scene(seed);
     const scene::Assembly assembly = scene::assemble(scene);
     for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact, AtlasKind::charts}) {
+      // Resampling takes seconds.
+      if (kind != AtlasKind::exact && seed > 3) continue;
       for (const ChartOrder order : {ChartOrder::median, ChartOrder::hilbert}) {
         // Where some charts are resampled none are ordered (slots.h).
         if (kind != AtlasKind::exact && order != ChartOrder::median) continue;
