@@ -34,7 +34,8 @@ std::string inline_text(const Json& value) {
   for (const auto& [key, item] : value.items()) {
     if (!text.empty()) text += ", ";
     if (value.is_object()) text += words(key) + ' ';
-    text += item.is_structured() && !item.empty() ? '(' + inline_text(item) + ')' : inline_text(item);
+    text +=
+        item.is_structured() && !item.empty() ? fmt::format("({})", inline_text(item)) : inline_text(item);
   }
   return text;
 }
@@ -65,7 +66,7 @@ void print(const Json& object, const std::string& indent, std::string& text) {
       text += '\n';
       print(value, indent + "  ", text);
     } else if (holds_objects(value)) {
-      text += " " + std::to_string(value.size()) + '\n';
+      text += fmt::format(" {}\n", value.size());
       for (size_t i = 0; i < value.size(); ++i) text += indent + "  " + element_line(value[i], i) + '\n';
     } else if (holds_sentences(value)) {
       text += '\n';
