@@ -37,10 +37,12 @@ class Aov : public SurfaceKernel<Probe, source_count> {
         const uvec4 normal = as_bits(surface.normal, 0u);
         first = select(this->active(), uvec4(hit.x, normal.x, normal.y, normal.z), first);
         second = select(this->active(), as_bits(surface.albedo, 0u), second);
-        const uvec1 triangle = part.first_mesh_triangle + (point.source[0].triangle - part.first_triangle);
+        uvec1 triangle = point.source[0].triangle;
+        if ((this->placing & placing_found) != 0)
+          triangle = select(this->active(), this->load(this->positions, point.source[0].vertex[0]).w, triangle);
         third = select(this->active(),
                        uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y),
-                             part.mesh, triangle),
+                             part.mesh, part.first_mesh_triangle + (triangle - part.first_triangle)),
                        third);
       });
     }

@@ -26,15 +26,6 @@ class BoxesKernel : public Kernel<Probe> {
     return join(c);
   }
 
-  // The object's extent to at least `reach`.
-  void raise(const Words& extents, float reach) const {
-    std::atomic_ref<uint32_t> word(extents.words[push_.object]);
-    const uint32_t bits = layout::floatBitsToUint(reach);
-    uint32_t before = word.load(std::memory_order_relaxed);
-    while (bits > before && !word.compare_exchange_weak(before, bits, std::memory_order_relaxed)) {
-    }
-  }
-
   static layout::Box join(const layout::Box (&c)[4]) {
     return layout::join_boxes(layout::join_boxes(c[0], c[1]), layout::join_boxes(c[2], c[3]));
   }

@@ -20,7 +20,6 @@ class BoxesBlocks : public BoxesKernel<Probe> {
         points[y][x] = as_vec3(this->load(geometry_, texel));
       }
     }
-    float reach = 0;
     layout::Box parents[4];
     for (uint32_t parent = 0; parent < 4; ++parent) {
       layout::Box children[4];
@@ -30,19 +29,15 @@ class BoxesBlocks : public BoxesKernel<Probe> {
         if (x >= width || y >= height) continue;
         const layout::Bound bound =
             layout::quad_bound(points[y][x], points[y][x + 1], points[y + 1][x], points[y + 1][x + 1]);
-        reach =
-            layout::max2(reach, layout::max2(layout::largest_abs(bound.lo), layout::largest_abs(bound.hi)));
         children[child] = layout::bound_box(bound.lo, bound.hi, this->push_.grid, per_step_);
       }
       parents[parent] = this->store_record(boxes_, this->push_.depth - 1, 4 * block.x + parent, children);
     }
     this->store_record(boxes_, this->push_.depth - 2, block.x, parents);
-    this->raise(extents_, reach);
   }
 
  private:
   Quads blocks_ = this->quads(0), geometry_ = this->quads(1), boxes_ = this->quads(2);
-  Words extents_ = this->words(3);
   glm::vec3 per_step_ = glm::vec3(1, 1, 1) / this->push_.grid.step;
 };
 

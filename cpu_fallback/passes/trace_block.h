@@ -27,8 +27,7 @@ class TraceTree {
         depth_(object.depth),
         slots_(object.slots),
         grid_(as_vec3(nodes_lo_.load4(0)), as_vec3(nodes_hi_.load4(0))),
-        extent_(layout::max2(layout::largest_abs(as_vec3(nodes_lo_.load4(0))),
-                             layout::largest_abs(as_vec3(nodes_hi_.load4(0))))) {
+        extent_(object.extent) {
     const render::WideLevels levels(depth_, slots_);
     first_leaf_record_ = render::WideLevels::first(levels.count() - 1);
     end_record_ = levels.end();

@@ -9,19 +9,19 @@ namespace {
 using glm::uvec4;
 
 template <class Probe>
-class TraceBoxes : public TraceKernel<Probe, 10> {
+class TraceBoxes : public TraceKernel<Probe, 9> {
  public:
-  using TraceKernel<Probe, 10>::TraceKernel;
+  using TraceKernel<Probe, 9>::TraceKernel;
 
   void operator()(uint32_t index) {
     const layout::Ray ray = this->load_ray(index);
     const uint32_t root = this->root(index, moving_);
     object_ = this->load_object(root);
-    const layout::Slabs slabs = layout::make_slabs(ray, extents_[root]);
+    const layout::Slabs slabs = layout::make_slabs(ray, object_.extent);
     const layout::Shear shear = layout::make_shear(ray);
     const layout::BoxRay box_ray = layout::make_box_ray(slabs, layout::object_grid(object_));
     this->load_tolerance(index);
-    typename TraceKernel<Probe, 10>::State state;
+    typename TraceKernel<Probe, 9>::State state;
     if (!this->begin_ray(index, ray, state)) return;
     layout::Hit& best = state.best;
     layout::BoxWalk walk{layout::trace_depth(state.place), state.place.x, state.place.y, uvec4(0)};
@@ -82,11 +82,10 @@ class TraceBoxes : public TraceKernel<Probe, 10> {
   }
 
   layout::ObjectRecord object_{};
-  typename TraceKernel<Probe, 10>::Moving moving_;
+  typename TraceKernel<Probe, 9>::Moving moving_;
   Quads boxes_ = this->quads(6);
   Words leaf_map_ = this->words(7);
-  Structs<float> extents_ = this->template structs<float>(8);
-  Quads trails_ = this->quads(9);
+  Quads trails_ = this->quads(8);
 };
 
 LODESTONE_BLOCK_FUNCTION(static, trace_boxes, TraceBoxes)

@@ -172,12 +172,6 @@ class NodesKernel : public TraceKernel<Probe, objects_slot> {
   using TraceKernel<Probe, objects_slot>::TraceKernel;
 
  protected:
-  // The largest absolute coordinate of a hierarchy's bound.
-  float root_extent(uint32_t first_node) {
-    return layout::max2(layout::largest_abs(as_vec3(this->load(nodes_lo_, first_node))),
-                        layout::largest_abs(as_vec3(this->load(nodes_hi_, first_node))));
-  }
-
   // Where the ray enters the bound, and whether it does before `tmax`. `above`: the number of the node above
   // in the detail of nodes; null: there is none.
   struct Entry {

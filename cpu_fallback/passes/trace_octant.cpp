@@ -15,7 +15,7 @@ class TraceOctant : public NodesKernel<Probe, 8> {
     const layout::Ray ray = this->load_ray(index);
     typename NodesKernel<Probe, 8>::Moving moving;
     const layout::ObjectRecord object = this->load_object(this->root(index, moving));
-    const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(object.first_node));
+    const layout::Slabs slabs = layout::make_slabs(ray, object.extent);
     const layout::Shear shear = layout::make_shear(ray);
     this->load_tolerance(index);
     typename NodesKernel<Probe, 8>::State state;

@@ -16,7 +16,7 @@ class TraceThreaded : public NodesKernel<Probe, 9> {
     typename NodesKernel<Probe, 9>::Moving moving;
     const layout::ObjectRecord object = this->load_object(this->root(index, moving));
     const uint32_t first_node = object.first_node;
-    const layout::Slabs slabs = layout::make_slabs(ray, this->root_extent(first_node));
+    const layout::Slabs slabs = layout::make_slabs(ray, object.extent);
     const layout::Shear shear = layout::make_shear(ray);
     this->load_tolerance(index);
     typename NodesKernel<Probe, 9>::State state;

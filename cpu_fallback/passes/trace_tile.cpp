@@ -23,9 +23,9 @@ struct Group {
 };
 
 template <class Probe>
-class TraceTile : public TraceKernel<Probe, 9> {
+class TraceTile : public TraceKernel<Probe, 8> {
  public:
-  using TraceKernel<Probe, 9>::TraceKernel;
+  using TraceKernel<Probe, 8>::TraceKernel;
 
   void operator()(uint32_t invocation) {
     first_ = tile_rays * (invocation / tile_lanes);
@@ -40,7 +40,7 @@ class TraceTile : public TraceKernel<Probe, 9> {
     uint32_t lead = 0;
     for (uint32_t kind = 0; kind < layout::tile_kinds && lead < tile_rays && left_ > 0; ++kind) {
       lead_ = groups_[lead / tile_lanes].rays[lead % tile_lanes];
-      slabs_ = layout::make_slabs(lead_, extents_[0]);
+      slabs_ = layout::make_slabs(lead_, object_.extent);
       axes_ = layout::make_tile_axes(slabs_, layout::object_grid(object_));
       for (Group& group : groups_) activate(group);
       join_groups();
@@ -58,7 +58,7 @@ class TraceTile : public TraceKernel<Probe, 9> {
     group.tmax = -1;
     for (uint32_t lane = 0; lane < tile_lanes; ++lane) {
       const layout::Ray& ray = group.rays[lane];
-      const layout::Slabs slabs = layout::make_slabs(ray, extents_[0]);
+      const layout::Slabs slabs = layout::make_slabs(ray, object_.extent);
       const bool alike = ray.origin == lead_.origin && ray.tmin == lead_.tmin && !std::signbit(lead_.tmin) &&
                          slabs.octant == slabs_.octant && layout::make_shear(ray).axis == axis;
       group.active[lane] = group.waits[lane] && ray.tmax >= 0.0f && alike;
@@ -163,8 +163,8 @@ class TraceTile : public TraceKernel<Probe, 9> {
     for (uint32_t lane = 0; lane < tile_lanes; ++lane) {
       if (!group.active[lane]) continue;
       const layout::Ray& ray = group.rays[lane];
-      this->test_quad(texel, stride, {}, ray, layout::make_slabs(ray, extents_[0]), layout::make_shear(ray),
-                      layout::no_index, group.best[lane]);
+      this->test_quad(texel, stride, {}, ray, layout::make_slabs(ray, object_.extent),
+                      layout::make_shear(ray), layout::no_index, group.best[lane]);
     }
   }
 
@@ -174,7 +174,7 @@ class TraceTile : public TraceKernel<Probe, 9> {
   }
 
   void store(bool in_time) {
-    using Base = TraceKernel<Probe, 9>;
+    using Base = TraceKernel<Probe, 8>;
     uint32_t again = 0;
     for (uint32_t i = 0; i < tile_rays && first_ + i < this->push_.rays; ++i) {
       const Group& group = groups_[i / tile_lanes];
@@ -190,7 +190,6 @@ class TraceTile : public TraceKernel<Probe, 9> {
 
   Quads boxes_ = this->quads(6);
   Words leaf_map_ = this->words(7);
-  Structs<float> extents_ = this->template structs<float>(8);
   layout::ObjectRecord object_ = this->load_object(0);  // the only one
 
   uint32_t first_ = 0;  // ray of the tile

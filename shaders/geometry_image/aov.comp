@@ -37,8 +37,14 @@ void main() {
     Surface surface = surface_at(material, point, as_vec3(along));
     first = uvec4(hit.x, as_bits(surface.normal, 0u).xyz);
     second = as_bits(surface.albedo, 0u);
+    uint triangle = point.source[0].triangle;
+    if ((placing & placing_found) != 0u) {
+      uvec4 vertex;
+      LOAD4(vertex, positions, point.source[0].vertex[0]);
+      triangle = vertex.w;
+    }
     third = uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y), part.mesh,
-                  part.first_mesh_triangle + (point.source[0].triangle - part.first_triangle));
+                  part.first_mesh_triangle + (triangle - part.first_triangle));
   }
   STORE4(aovs, 4u * pixel, first);
   STORE4(aovs, 4u * pixel + 1u, second);

@@ -9,8 +9,7 @@
 QUADS(0, readonly, blocks);  // see LeafBlocks
 QUADS(1, readonly, geometry);
 QUADS(2, writeonly, boxes);
-STRUCTS(3, restrict, uint, extents);  // one an object: float bits, which order like integers
-COUNTERS(4)
+COUNTERS(3)
 PUSH(BoxesPush, push);
 
 #include "geometry_image/boxes.glsl"
@@ -50,14 +49,10 @@ Row load_row(uint texel, uint width) {
   return row;
 }
 
-float reach = 0.0;
 vec3 per_step;
 
 Box quad_box(Bound upper, Bound lower, bool there) {
   Bound bound = join(upper, lower);
-  float far = max2(largest_abs(bound.lo), largest_abs(bound.hi));
-  float farther = max2(reach, far);
-  reach = there ? farther : reach;
   Box box = bound_box(bound.lo, bound.hi, push.grid, per_step);
   Box none = empty_box();
   box.lo = there ? box.lo : none.lo;
@@ -105,6 +100,5 @@ void main() {
   Box p2 = store_children(4u * block.x + 2u, b02, b12, b03, b13);
   Box p3 = store_children(4u * block.x + 3u, b22, b32, b23, b33);
   store_record(push.depth - 2u, block.x, p0, p1, p2, p3);
-  if (floatBitsToUint(reach) > extents[push.object]) atomicMax(extents[push.object], floatBitsToUint(reach));
   flush_counters();
 }

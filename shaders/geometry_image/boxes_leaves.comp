@@ -8,15 +8,12 @@
 WORDS(0, readonly, leaf_map);
 QUADS(1, readonly, geometry);
 QUADS(2, writeonly, boxes);
-STRUCTS(3, restrict, uint, extents);  // one an object: float bits, which order like integers
-WORDS(4, readonly, groups);          // of sixteen slots: those that boxes_blocks leaves
-COUNTERS(5)
+WORDS(3, readonly, groups);          // of sixteen slots: those that boxes_blocks leaves
+COUNTERS(4)
 PUSH(BoxesPush, push);
 layout(constant_id = 2) const uint moving = 0u;  // 1: bounds hold the quads of both images
 
 #include "geometry_image/boxes.glsl"
-
-float reach = 0.0;  // the largest absolute coordinate of all bounds
 
 Bound bound_quad(uint texel, uint stride) {
   uvec4 a;
@@ -41,7 +38,6 @@ Box bound_leaf(uint slot, vec3 per_step) {
   if (texel != empty_slot) {
     Bound bound = bound_quad(push.image + texel, stride);
     if (moving != 0u) bound = join(bound, bound_quad(push.next_image + texel, stride));
-    reach = max2(reach, max2(largest_abs(bound.lo), largest_abs(bound.hi)));
     box = bound_box(bound.lo, bound.hi, push.grid, per_step);
   }
   return box;
@@ -70,7 +66,5 @@ void main() {
     Box p3 = bound_record(4u * group + 3u, per_step);
     store_record(push.depth - 2u, group, p0, p1, p2, p3);
   }
-  // Few invocations raise it: most would wait for each other in vain.
-  if (floatBitsToUint(reach) > extents[push.object]) atomicMax(extents[push.object], floatBitsToUint(reach));
   flush_counters();
 }

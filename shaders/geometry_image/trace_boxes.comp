@@ -10,16 +10,15 @@
 
 QUADS(6, readonly, boxes);
 WORDS(7, readonly, leaf_map);
-STRUCTS(8, readonly, float, extents);
-QUADS(9, restrict, trails);
-QUADS(10, readonly, objects);
-WORDS(11, readonly, roots);
-WORDS(12, readonly, times);
-WORDS(13, readonly, collapses);
-QUADS(14, readonly, node_details);
-QUADS(15, readonly, coarse_quads);
-QUADS(16, readonly, cones);
-COUNTERS(17)
+QUADS(8, restrict, trails);
+QUADS(9, readonly, objects);
+WORDS(10, readonly, roots);
+WORDS(11, readonly, times);
+WORDS(12, readonly, collapses);
+QUADS(13, readonly, node_details);
+QUADS(14, readonly, coarse_quads);
+QUADS(15, readonly, cones);
+COUNTERS(16)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
@@ -31,7 +30,7 @@ void main() {
   Ray ray = load_ray(index);
   uint root = load_root(index);
   ObjectRecord object = load_object(root);
-  Slabs slabs = make_slabs(ray, extents[root]);
+  Slabs slabs = make_slabs(ray, object.extent);
   Shear shear = make_shear(ray);
   BoxRay box_ray = make_box_ray(slabs, object_grid(object));
   load_tolerance(index);

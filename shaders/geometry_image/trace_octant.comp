@@ -22,7 +22,7 @@ void main() {
   if (index >= push.rays) return;
   Ray ray = load_ray(index);
   ObjectRecord object = load_object(load_root(index));
-  Slabs slabs = make_slabs(ray, root_extent(object.first_node));
+  Slabs slabs = make_slabs(ray, object.extent);
   Shear shear = make_shear(ray);
   load_tolerance(index);
   Hit best;

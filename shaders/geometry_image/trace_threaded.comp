@@ -23,7 +23,7 @@ void main() {
   Ray ray = load_ray(index);
   ObjectRecord object = load_object(load_root(index));
   uint first_node = object.first_node;
-  Slabs slabs = make_slabs(ray, root_extent(first_node));
+  Slabs slabs = make_slabs(ray, object.extent);
   Shear shear = make_shear(ray);
   load_tolerance(index);
   Hit best;

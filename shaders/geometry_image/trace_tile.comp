@@ -13,15 +13,14 @@
 
 QUADS(6, readonly, boxes);
 QUADS(7, readonly, leaf_map);  // two slots a quad
-STRUCTS(8, readonly, float, extents);
-QUADS(9, readonly, objects);
-WORDS(10, readonly, roots);
-WORDS(11, readonly, times);
-WORDS(12, readonly, collapses);
-QUADS(13, readonly, node_details);
-QUADS(14, readonly, coarse_quads);
-QUADS(15, readonly, cones);
-COUNTERS(16)
+QUADS(8, readonly, objects);
+WORDS(9, readonly, roots);
+WORDS(10, readonly, times);
+WORDS(11, readonly, collapses);
+QUADS(12, readonly, node_details);
+QUADS(13, readonly, coarse_quads);
+QUADS(14, readonly, cones);
+COUNTERS(15)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
@@ -97,7 +96,7 @@ void activate(inout Group group, uint first) {
   uint index = first + lane;
   uint last = push.rays - 1u;
   Ray ray = load_ray(index < push.rays ? index : last);
-  Slabs slabs = make_slabs(ray, extents[0]);
+  Slabs slabs = make_slabs(ray, object.extent);
   group.inverse = slabs.inverse;
   group.shear = make_shear(ray);
   bool alike = ray.origin.x == origin.x && ray.origin.y == origin.y && ray.origin.z == origin.z && ray.tmin == tmin &&
@@ -201,7 +200,7 @@ void main() {
   uint limit = left;
   for (uint kind = 0u; kind < tile_kinds && lead < tile_rays && left - 1u < limit; ++kind) {
     Ray lead_ray = load_ray(first + lead);  // the same for all lanes
-    common_slabs = make_slabs(lead_ray, extents[0]);
+    common_slabs = make_slabs(lead_ray, object.extent);
     origin = lead_ray.origin;
     tmin = lead_ray.tmin;
     octant = common_slabs.octant;

@@ -31,7 +31,6 @@ struct BoxesPush {
   uint first_node;  // the hierarchy's first record
   uint first_slot;
   uint first_item;  // of its blocks, or groups
-  uint object;
   uint image;       // first texel of the geometry image, and ...
   uint next_image;  // ... of the one behind, where something moves
 };

@@ -34,6 +34,8 @@ CONST uint detailed_sources = 6u;  // of a hit, see layout/surface.h
 // What a binding that two features share has in a dispatch: the instances, or the cones of scattered rays.
 CONST uint placing_instances = 1u;
 CONST uint placing_cones = 2u;
+// Beside these: what was hit has been kept ray by ray (layout/portion.h).
+CONST uint placing_found = 4u;
 
 // What a ray tolerates at a point: the largest of two cones, that of the camera and one that rays get where
 // they are scattered. A cone is as wide as it says at its apex and wider with the distance from there.

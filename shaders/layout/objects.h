@@ -30,7 +30,7 @@ struct ObjectRecord {
   vec3 hi;
   uint first_detail;  // of its nodes above the leaves (layout/detail.h)
   vec3 step;          // of the grid of its 16-bit boxes, whose base is `lo`
-  uint pad1;
+  float extent;       // the largest absolute coordinate of the box
 };
 
 FN ObjectRecord object_record(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
@@ -44,7 +44,7 @@ FN ObjectRecord object_record(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
   object.hi = vec3(uintBitsToFloat(c.x), uintBitsToFloat(c.y), uintBitsToFloat(c.z));
   object.first_detail = c.w;
   object.step = vec3(uintBitsToFloat(d.x), uintBitsToFloat(d.y), uintBitsToFloat(d.z));
-  object.pad1 = d.w;
+  object.extent = uintBitsToFloat(d.w);
   return object;
 }
 

@@ -44,7 +44,7 @@ FN float slab_inverse(float d) {
   return d < 0.0f ? -1.0f / size : 1.0f / size;
 }
 
-// `extent`: the largest absolute coordinate of the scene's bounds.
+// `extent`: ObjectRecord::extent, so that it is the same whatever hierarchy the quad is in.
 FN Slabs make_slabs(Ray ray, float extent) {
   float reach = max2(extent, largest_abs(ray.origin));
   float margin = reach * slab_margin;

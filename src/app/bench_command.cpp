@@ -134,6 +134,7 @@ TraversalCost bench_traversal(const BenchOptions& options, const PreparedScene& 
   settings.height = options.picture.size.height;
   settings.relaxation_sweeps = options.relaxation_sweeps;
   settings.pixels_of_error = options.pixels_of_error;
+  settings.device_memory = options.device.memory;
   settings.traversal = parse_traversal("--traversal", traversal);
   render::Renderer renderer(backend, prepared.scene, prepared.assembly, prepared.atlas, settings);
   TraversalCost cost;

@@ -422,6 +422,10 @@ void add_device_options(CLI::App& app, DeviceOptions& options) {
       "cpu; gpu: the first Vulkan device; its INDEX or part of its NAME as `lodestone devices` lists them; "
       "auto: a GPU, else any Vulkan device, else the CPU (default)",
       [&](const std::string& text) { options.device = parse_name("--device", text); });
+  add_value(app, "--device-memory", "SIZE",
+            "Bytes that may be in use on the device, as in 800M or 2G (default: all there are); a scene that "
+            "does not fit goes through it in portions, and the picture is the same",
+            [&](const std::string& text) { options.memory = parse_bytes("--device-memory", text); });
   add_threads_option(app, options.backend.threads);
   app.add_flag("--validate", options.backend.validate,
                "Run the Vulkan validation layers; any message is an error");

@@ -108,9 +108,11 @@ std::vector<std::string> aov_names();
 struct DeviceOptions {
   std::string device = "auto";
   render::BackendOptions backend;
+  uint64_t memory = 0;  // render::Settings::device_memory
 };
-void add_device_options(CLI::App& app, DeviceOptions& options);  // --device --threads --validate
-void add_threads_option(CLI::App& app, uint32_t& threads);       // 0: all
+void add_device_options(CLI::App& app,
+                        DeviceOptions& options);            // --device --device-memory --threads --validate
+void add_threads_option(CLI::App& app, uint32_t& threads);  // 0: all
 
 void add_log_options(CLI::App& app);  // -v -q, which take effect while they are parsed
 

@@ -90,6 +90,7 @@ void render_frames(const ParityOptions& options, const PreparedScene& prepared, 
   settings.relaxation_sweeps = options.relaxation_sweeps;
   settings.pixels_of_error = options.pixels_of_error;
   settings.shutter_segments = options.shutter.settled_segments();
+  settings.device_memory = options.device.memory;
   settings.aovs = aov_names();
   scene::Bounds bounds;
   if (options.picture.camera.needs_bounds(prepared.scene)) bounds = prepared.bounds();

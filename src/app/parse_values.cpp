@@ -54,6 +54,17 @@ double parse_number(const std::string& option, const std::string& text, double l
   return value;
 }
 
+uint64_t parse_bytes(const std::string& option, const std::string& text) {
+  constexpr std::string_view units = "KMGT";
+  const size_t unit = text.empty() ? std::string_view::npos : units.find(text.back());
+  const uint32_t shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<uint32_t>(unit) + 1);
+  const std::string_view digits = std::string_view(text).substr(0, text.size() - (shift > 0 ? 1 : 0));
+  uint64_t count = 0;
+  if (!read_count(digits, 1, (uint64_t(1) << 50) >> shift, count))
+    fail_usage(option, "`{}` is not a number of bytes like 800M or 2G", text);
+  return count << shift;
+}
+
 Size parse_size(const std::string& option, const std::string& text) {
   const size_t cross = text.find('x');
   const std::string_view view = text;

@@ -23,6 +23,9 @@ uint64_t parse_count(const std::string& option, const std::string& text, uint64_
 // A finite decimal number, lo..hi.
 double parse_number(const std::string& option, const std::string& text, double lo, double hi);
 
+// A whole number of bytes, at least 1; or of KiB, MiB, GiB, TiB with K, M, G or T behind it.
+uint64_t parse_bytes(const std::string& option, const std::string& text);
+
 struct Size {
   uint32_t width = 512, height = 512;
 };

@@ -99,6 +99,7 @@ render::Settings settings_of(const RenderOptions& options) {
   settings.relaxation_sweeps = options.relaxation_sweeps;
   settings.pixels_of_error = options.pixels_of_error;
   settings.shutter_segments = options.shutter.settled_segments();
+  settings.device_memory = options.device.memory;
   settings.view = options.view;
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
@@ -273,6 +274,11 @@ int RenderRun::run() {
   render_frames();
   progress_.clear();
   measured_.device_bytes = device_.backend->allocated_bytes();
+  if (const auto streaming = renderer_->streaming()) {
+    measured_.streaming = {streaming->portions, streaming->loads, streaming->peak_bytes};
+    log::note(fmt::format("{} portions of the scene went through {:.0f} MB on the device, {} loads",
+                          streaming->portions, double(streaming->peak_bytes) / 1e6, streaming->loads));
+  }
   sheet_.write();
   write_reports();
   const uint32_t wanted = options_.frames.range().count();

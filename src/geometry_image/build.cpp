@@ -16,6 +16,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/base/parallel.h"
 #include "lodestone/geometry_image/atlas_objects.h"
+#include "lodestone/geometry_image/chart_boxes.h"
 #include "lodestone/geometry_image/charts.h"
 #include "lodestone/geometry_image/mapped_charts.h"
 #include "lodestone/geometry_image/notes.h"
@@ -46,40 +47,6 @@ std::vector<bool> choose_kinds(const scene::Scene& scene, const scene::Assembly&
     }
   }
   return as_grid;
-}
-
-// Of the triangles of a chart.
-ChartBox box_of(const scene::Assembly& assembly, const std::vector<glm::vec3>& positions, const Atlas& atlas,
-                const layout::ChartRecord& chart) {
-  glm::vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
-  const auto include = [&](uint32_t triangle) {
-    for (glm::length_t corner = 0; corner < 3; ++corner) {
-      lo = glm::min(lo, positions[assembly.triangles[triangle][corner]]);
-      hi = glm::max(hi, positions[assembly.triangles[triangle][corner]]);
-    }
-  };
-  if (chart.kind == layout::chart_mapped) {
-    for (uint64_t i = 0; i < texel_count(chart); ++i) include(atlas.texel_map[chart.first_texel + i].x);
-  } else {
-    for (uint64_t i = 0; i < triangle_count(chart); ++i)
-      include(static_cast<uint32_t>(chart.first_triangle + i));
-  }
-  // A transform may overflow; where the chart is put then does not matter, but numbers must have an order.
-  for (glm::length_t axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(lo[axis]) || !std::isfinite(hi[axis])) lo[axis] = hi[axis] = 0;
-  return {lo, hi};
-}
-
-// In the rest pose.
-std::vector<ChartBox> chart_boxes(const scene::Scene& scene, const scene::Assembly& assembly,
-                                  const Atlas& atlas) {
-  constexpr uint64_t grain = 1u << 10;
-  const std::vector<glm::vec3> positions = scene::rest_positions(scene, assembly);
-  std::vector<ChartBox> boxes(atlas.charts.size());
-  parallel_for(boxes.size(), grain, [&](uint64_t begin, uint64_t end) {
-    for (uint64_t i = begin; i < end; ++i) boxes[i] = box_of(assembly, positions, atlas, atlas.charts[i]);
-  });
-  return boxes;
 }
 
 // Resamples the triangles that get no chart of their own; those that cannot be mapped get one.
@@ -189,7 +156,9 @@ Atlas build_atlas(const scene::Scene& scene, const scene::Assembly& assembly, co
   atlas.kind = kind_of(atlas.charts);
   if (on_stage) on_stage("order");
   std::vector<ChartBox> boxes;
-  if (atlas.charts.size() > 1) boxes = chart_boxes(scene, assembly, atlas);
+  if (atlas.charts.size() > 1)
+    boxes = chart_boxes(assembly.triangles, scene::rest_positions(scene, assembly), atlas.charts,
+                        atlas.texel_map);
   const uint64_t slots = assign_slots(atlas.charts, boxes, order, scene.name);
   atlas.objects.push_back(
       {tree_depth(slots), 0, static_cast<uint32_t>(slots), 0, static_cast<uint32_t>(atlas.texel_map.size())});

@@ -129,11 +129,11 @@ void Instances::build_tree() {
   const uint32_t depth = levels_.depth();
   const auto written = [&](uint32_t level) { return level > 0 ? levels_.places(level - 1) : 0; };
   run(passes::upper_leaves, {keys_.id(), lo_.id(), hi_.id(), boxes_.id()},
-      layout::BoxesPush{depth, count_, written(depth), 0, grid_, 0, 0, 0, 0, 0, 0}, written(depth));
+      layout::BoxesPush{depth, count_, written(depth), 0, grid_, 0, 0, 0, 0, 0}, written(depth));
   for (uint32_t level = depth - 1; level > 0;) {
     const bool two = level >= 2;
     const layout::BoxesPush push{
-        level, levels_.places(level), written(level), two ? written(level - 1) : 0, grid_, 0, 0, 0, 0, 0, 0};
+        level, levels_.places(level), written(level), two ? written(level - 1) : 0, grid_, 0, 0, 0, 0, 0};
     run(passes::upper_boxes, {boxes_.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }

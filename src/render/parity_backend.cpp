@@ -147,7 +147,7 @@ std::vector<PassRecord> ParityBackend::finish() {
 }
 
 uint64_t ParityBackend::allocated_bytes() const {
-  return state_->device->allocated_bytes() + state_->reference->allocated_bytes();
+  return state_->device->allocated_bytes();
 }
 
 const std::vector<PassDifference>& ParityBackend::differences() const {

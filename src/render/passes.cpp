@@ -7,6 +7,7 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/objects.h"
+#include "lodestone/layout/portion.h"
 #include "lodestone/layout/relax.h"
 #include "lodestone/layout/trace.h"
 
@@ -85,18 +86,13 @@ constexpr Binding trace_wide_bindings[] = {RAY_BINDINGS,
                                            OBJECT_BINDINGS,
                                            DETAIL_BINDINGS};
 
-constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
-                                            {"boxes", quad, read},
-                                            {"leaf_map", word, read},
-                                            {"extents", structs, read},
-                                            {"trails", quad, read_write},
-                                            OBJECT_BINDINGS,
-                                            DETAIL_BINDINGS};
+constexpr Binding trace_boxes_bindings[] = {
+    RAY_BINDINGS,    {"boxes", quad, read}, {"leaf_map", word, read}, {"trails", quad, read_write},
+    OBJECT_BINDINGS, DETAIL_BINDINGS};
 
 // Its leaf map is read in pairs of slots.
 constexpr Binding trace_tile_bindings[] = {
-    RAY_BINDINGS,    {"boxes", quad, read}, {"leaf_map", quad, read}, {"extents", structs, read},
-    OBJECT_BINDINGS, DETAIL_BINDINGS};
+    RAY_BINDINGS, {"boxes", quad, read}, {"leaf_map", quad, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
 
 #undef DETAIL_BINDINGS
 #undef OBJECT_BINDINGS
@@ -160,16 +156,50 @@ constexpr Binding local_rays_bindings[] = {
     {"owners", word, read},        {"roots", word, write},      {"local_rays", quad, write},
     {"local_states", quad, write}, {"local_steps", word, write}};
 
-constexpr Binding boxes_leaves_bindings[] = {{"leaf_map", word, read},
-                                             {"geometry", quad, read},
-                                             {"boxes", quad, write},
-                                             {"extents", structs, read_write},
-                                             {"groups", word, read}};
+constexpr Binding portion_begin_bindings[] = {{"rays", quad, read},
+                                              {"hits", quad, read_write},
+                                              {"states", quad, read_write},
+                                              {"steps", word, write},
+                                              {"found_hits", quad, write}};
 
-constexpr Binding boxes_blocks_bindings[] = {{"blocks", quad, read},
-                                             {"geometry", quad, read},
-                                             {"boxes", quad, write},
-                                             {"extents", structs, read_write}};
+constexpr Binding portion_enter_bindings[] = {{"rays", quad, read},         {"hits", quad, read},
+                                              {"states", quad, read},       {"runs", word, read},
+                                              {"local_rays", quad, write},  {"local_states", quad, write},
+                                              {"local_steps", word, write}, {"wanted", structs, read_write}};
+
+constexpr Binding portion_end_bindings[] = {{"local_hits", quad, read},
+                                            {"local_steps", word, read},
+                                            {"hits", quad, read_write},
+                                            {"states", quad, read_write},
+                                            {"steps", word, read_write},
+                                            {"runs", word, read},
+                                            {"times", word, read},
+                                            {"geometry", quad, read},
+                                            {"normal_map", quad, read},
+                                            {"texel_map", quad, read},
+                                            {"triangles", quad, read},
+                                            {"triangle_numbers", word, read},
+                                            {"positions", quad, read},
+                                            {"normals", quad, read},
+                                            {"tangents", quad, read},
+                                            {"texcoords", quad, read},
+                                            {"charts", quad, read},
+                                            {"found_hits", quad, write},
+                                            {"found_geometry", quad, write},
+                                            {"found_normal_map", quad, write},
+                                            {"found_texel_map", quad, write},
+                                            {"found_triangles", quad, write},
+                                            {"found_positions", quad, write},
+                                            {"found_normals", quad, write},
+                                            {"found_tangents", quad, write},
+                                            {"found_texcoords", quad, write},
+                                            {"found_charts", quad, write}};
+
+constexpr Binding boxes_leaves_bindings[] = {
+    {"leaf_map", word, read}, {"geometry", quad, read}, {"boxes", quad, write}, {"groups", word, read}};
+
+constexpr Binding boxes_blocks_bindings[] = {
+    {"blocks", quad, read}, {"geometry", quad, read}, {"boxes", quad, write}};
 
 constexpr Binding boxes_bindings[] = {{"boxes", quad, read_write}};
 
@@ -296,6 +326,17 @@ const PassDecl occlude_scan{"occlude", "geometry_image/scan_blocks", scan_blocks
 const PassDecl occlude_gather{"occlude", "geometry_image/gather_rays", gather_rays_bindings,
                               sizeof(GatherPush)};
 const PassDecl occlude_local{"occlude", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
+const PassDecl portion_begin{"trace", "geometry_image/portion_begin", portion_begin_bindings,
+                             sizeof(PortionPush)};
+const PassDecl portion_enter{"trace", "geometry_image/portion_enter", portion_enter_bindings,
+                             sizeof(PortionPush)};
+const PassDecl portion_end{"trace", "geometry_image/portion_end", portion_end_bindings, sizeof(PortionPush)};
+const PassDecl occlude_portion_begin{"occlude", "geometry_image/portion_begin", portion_begin_bindings,
+                                     sizeof(PortionPush)};
+const PassDecl occlude_portion_enter{"occlude", "geometry_image/portion_enter", portion_enter_bindings,
+                                     sizeof(PortionPush)};
+const PassDecl occlude_portion_end{"occlude", "geometry_image/portion_end", portion_end_bindings,
+                                   sizeof(PortionPush)};
 const PassDecl camera{"camera", "geometry_image/camera", camera_bindings, sizeof(RayPush)};
 const PassDecl trace_threaded{"trace", "geometry_image/trace_threaded", trace_threaded_bindings,
                               sizeof(TracePush)};

@@ -12,6 +12,8 @@ extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rast
 extern const PassDecl detail_begin, detail_measure, detail_settle, detail_end;
 extern const PassDecl place_instances, sort_keys, upper_leaves, upper_boxes;
 extern const PassDecl enter_instances, scan_blocks, gather_rays, local_rays;
+extern const PassDecl portion_begin, portion_enter, portion_end, occlude_portion_begin, occlude_portion_enter,
+    occlude_portion_end;
 extern const PassDecl occlude_enter, occlude_scan, occlude_gather, occlude_local;
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, trace_tile,
     occlude_threaded, occlude_octant, occlude_wide, occlude_boxes;

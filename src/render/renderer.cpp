@@ -9,6 +9,7 @@
 #include "lodestone/base/error.h"
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/tile.h"
+#include "lodestone/render/counting_backend.h"
 #include "lodestone/render/film.h"
 #include "lodestone/render/focus.h"
 #include "lodestone/render/passes.h"
@@ -45,16 +46,6 @@ bool mostly_common_origins(const std::vector<glm::vec4>& rays) {
   return 2 * together > runs;
 }
 
-std::optional<Detail> make_detail(Backend& device, const scene::Assembly& assembly,
-                                  const geometry_image::Atlas& atlas, const Settings& settings) {
-  if (settings.pixels_of_error == 0) return {};
-  if (assembly.has_instances())
-    fail(ExitCode::usage, "--pixels-of-error", "is not for instances; give --instancing off");
-  if (settings.shutter_segments > 0)
-    fail(ExitCode::usage, "--pixels-of-error", "does not go together with --shutter; give one of them");
-  return std::optional<Detail>(std::in_place, device, assembly, atlas);
-}
-
 }  // namespace
 
 Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -64,30 +55,14 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       assembly(assembly_in),
       atlas(atlas_in),
       settings(settings_in),
-      tables(device, scene_in, assembly_in, atlas_in),
+      materials(device, scene_in, assembly_in),
       environment(device, scene_in),
-      detail(make_detail(device, assembly_in, atlas_in, settings_in)),
-      tracing(device, atlas_in, tables.leaf_map, settings_in.traversal,
-              uint64_t(settings_in.width) * settings_in.height, settings_in.loop_budget,
-              settings_in.shutter_segments, detail ? &*detail : nullptr),
       reach(scene_in),
       pose_box(scene_in) {
   check_aovs(settings.aovs);
-  const uint64_t vertices = assembly.positions.size(), texels = atlas.texel_map.size();
-  weights = Buffer(device, {"weights", assembly.weight_count, 4});
-  matrices = Buffer(device, {"matrices", 3 * uint64_t(assembly.matrix_count), 16});
-  positions = Buffer(device, {"positions", vertices, 16});
-  normals = Buffer(device, {"normals", vertices, 16});
-  tangents = Buffer(device, {"tangents", vertices, 16});
   const uint32_t segments = settings.shutter_segments;
-  const uint64_t images = segments + 1;
-  if (images * texels > std::numeric_limits<int32_t>::max()) {
-    fail(ExitCode::usage, "--shutter-segments", "{} geometry images of {} texels are too many; give fewer",
-         images, texels);
-  }
-  geometry = Buffer(device, {"geometry", images * texels, 16});
-  normal_map = Buffer(device, {"normal_map", images * texels, 16});
-  cameras = Buffer(device, {"cameras", layout::camera_quads * images, 16});
+  cameras = Buffer(device, {"cameras", layout::camera_quads * (uint64_t(segments) + 1), 16});
+  cut_out = Buffer(device, {"cut_out", 1, 4});
   frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
   const bool splits = settings.integrator == Integrator::specular, eye = !goes_on(settings.integrator);
   if (splits && settings.max_bounces > most_specular_bounces) {
@@ -99,16 +74,17 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   // Whole tiles, so that rays that are side by side in the picture stay so.
   batch_rays = waiting == 0 ? rays : std::min<uint64_t>(rays, most_branches / waiting / 64 * 64);
   const uint64_t pixels = uint64_t(settings.width) * settings.height;
-  if (assembly.has_instances()) {
+  const bool placed = assembly.has_instances();
+  if (placed) {
     if (segments > 0) fail(ExitCode::usage, "--shutter", "is not for instances; give --instancing off");
     instances.emplace(device, assembly, settings.loop_budget);
   }
-  primary = RayBuffers(device, "", batch_rays, instances.has_value(), segments > 0);
-  shadow = RayBuffers(device, "shadow_", batch_rays, instances.has_value());
+  primary = RayBuffers(device, "", batch_rays, placed, segments > 0);
+  shadow = RayBuffers(device, "shadow_", batch_rays, placed);
   contributions = Buffer(device, {"contributions", batch_rays, 16});
   radiance = Buffer(device, {"radiance", batch_rays, 16});
   paths = Buffer(device, {"paths", eye ? 0 : batch_rays, 16});
-  const bool coned = detail && !eye;
+  const bool coned = settings.pixels_of_error > 0 && !eye;
   if (coned) cones = Buffer(device, {"cones", 2 * uint64_t(batch_rays), 16});
   branches = Buffer(device, {"branches", (coned ? 5 : 3) * uint64_t(batch_rays) * waiting, 16});
   going_on = Buffer(device, {"going_on", 1, 4});
@@ -116,93 +92,70 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
   if (settings.denoise) denoiser.emplace(device, settings, batch_rays);
-  if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0) prepare_relaxation();
+  make_surface();
   setup = device.finish();
 }
 
-void Renderer::State::prepare_relaxation() {
-  if (atlas.maps.empty()) {
-    fail(ExitCode::usage, "--relaxation-sweeps",
-         "needs the maps of the charts, and the atlas of {} has none; bake it with --keep-maps", scene.name);
+// On the device as a whole where it fits beside all else.
+void Renderer::State::make_surface() {
+  const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+  if (settings.device_memory > 0) {
+    CountingBackend counting(backend.info());
+    const uint64_t bytes = [&] {
+      const GeometryImage whole(counting, assembly, atlas, settings);
+      return counting.allocated_bytes();
+    }();
+    if (backend.allocated_bytes() + bytes > settings.device_memory) {
+      if (instances) {
+        fail(ExitCode::usage, "--device-memory",
+             "is too little for the scene to be on the device at once, and one with instances must be; give "
+             "at "
+             "least {}M, or --instancing off",
+             ((backend.allocated_bytes() + bytes) >> 20) + 1);
+      }
+      portions.emplace(backend, scene, assembly, atlas, settings, posed(rest), bytes, batch_rays,
+                       materials.has_masks);
+      return;
+    }
   }
-  // By the same pass as every pose, so that the rest pose has stretched nothing, to the bit.
-  Buffer rest_positions(backend, {"rest_positions", assembly.positions.size(), 16});
-  blend(scene::evaluate(scene, scene::none, 0), rest_positions);
-  relaxation.emplace(backend, tables, atlas, std::move(rest_positions));
-}
-
-void Renderer::State::blend(const scene::Pose& pose, const Buffer& blended_positions) {
-  reach.check(scene, pose);
-  const std::vector<float> frame_weights = scene::frame_weights(scene, assembly, pose);
-  const std::vector<glm::vec4> frame_matrices = scene::frame_matrices(scene, assembly, pose);
-  if (!frame_weights.empty()) backend.upload(weights.id(), std::as_bytes(std::span(frame_weights)));
-  backend.upload(matrices.id(), std::as_bytes(std::span(frame_matrices)));
-  // What is rigid has been blended once and for all.
-  uint32_t first = 0;
-  for (const scene::Object& object : assembly.objects)
-    if (object.rigid && rigid_done) first = object.first_vertex + object.vertices;
-  const uint32_t vertices = static_cast<uint32_t>(assembly.positions.size()) - first;
-  if (vertices == 0) return;
-  run(passes::blend,
-      {tables.base_positions.id(), tables.base_normals.id(), tables.base_tangents.id(),
-       tables.vertex_ranges.id(), tables.morph_positions.id(), tables.morph_normals.id(),
-       tables.morph_tangents.id(), tables.influences.id(), weights.id(), matrices.id(),
-       blended_positions.id(), normals.id(), tangents.id()},
-      layout::BlendPush{first, vertices, assembly.has_tangents ? 1u : 0u}, vertices);
-}
-
-// Of the blended vertices; the geometry image begins at texel `image`.
-void Renderer::State::rasterise(uint32_t first_texel, uint32_t image) {
-  const uint32_t texels = static_cast<uint32_t>(atlas.texel_map.size()) - first_texel;
-  if (texels == 0) return;
-  run(passes::rasterise,
-      {texel_map(), tables.triangles.id(), positions.id(), normals.id(), geometry.id(), normal_map.id()},
-      layout::RasterisePush{first_texel, texels, image}, texels);
+  image.emplace(backend, assembly, atlas, settings);
+  if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0)
+    image->relax(atlas, posed(rest), scene.name);
 }
 
 // Null: nothing is tolerated.
 void Renderer::State::look_from(const View* view) {
   camera = view == nullptr ? layout::RayCone{}
                            : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error);
-  tracing.set_camera(camera);
+  if (image) image->set_camera(camera);
 }
 
-// blend, relax, rasterise, detail, bounds: everything that follows from the pose.
+PosedVertices Renderer::State::posed(const scene::Pose& pose) const {
+  reach.check(scene, pose);
+  return {scene::frame_weights(scene, assembly, pose), scene::frame_matrices(scene, assembly, pose)};
+}
+
+// Everything that follows from the pose.
 void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>& shutter) {
-  const bool moves = settings.shutter_segments > 0;
-  if (relaxation || !moves) blend(pose, positions);
-  if (relaxation) relaxation->run(positions.id(), settings.relaxation_sweeps);
-  if (moves) return update_moving(pose, shutter);
-  size_t first = 0;  // object to be made anew
-  uint32_t first_texel = 0;
-  while (rigid_done && first < assembly.objects.size() && assembly.objects[first].rigid) {
-    first_texel = atlas.objects[first].first_texel + atlas.objects[first].texels;
-    ++first;
+  std::vector<PosedVertices> moments;
+  std::vector<scene::Bounds> boxes;  // one an object, of each segment
+  if (shutter.empty()) boxes = object_boxes(pose);
+  std::vector<scene::Bounds> before;
+  for (const Moment& moment : shutter) {
+    moments.push_back(posed(moment.pose));
+    const std::vector<scene::Bounds> now = object_boxes(moment.pose);
+    for (size_t i = 0; i < before.size(); ++i) {
+      boxes.push_back(before[i]);
+      boxes.back().include(now[i]);
+    }
+    before = now;
   }
-  rasterise(first_texel, 0);
-  if (detail) detail->build(geometry, steepest_cone(camera));
-  const std::vector<scene::Bounds> boxes = object_boxes(pose);
-  tracing.build(geometry, boxes, first);
-  if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, tracing.objects());
-  rigid_done = true;
-}
-
-// A geometry image a moment, and a hierarchy for each two of them.
-void Renderer::State::update_moving(const scene::Pose& pose, const std::vector<Moment>& shutter) {
-  std::vector<scene::Bounds> ends, boxes;
-  for (uint32_t i = 0; i < shutter.size(); ++i) {
-    blend(shutter[i].pose, positions);
-    rasterise(0, i * static_cast<uint32_t>(atlas.texel_map.size()));
-    const std::vector<scene::Bounds> end = object_boxes(shutter[i].pose);
-    ends.insert(ends.end(), end.begin(), end.end());
+  if (portions) {
+    portions->update(posed(pose), moments, boxes);
+    return;
   }
-  const size_t objects = assembly.objects.size();
-  for (size_t i = 0; i + objects < ends.size(); ++i) {
-    boxes.push_back(ends[i]);
-    boxes.back().include(ends[i + objects]);
-  }
-  blend(pose, positions);  // what shading looks up itself
-  tracing.build(geometry, boxes, 0);
+  image->update(posed(pose), moments, boxes, boxes);
+  if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, image->tracing().objects());
 }
 
 // Round each object in its space.
@@ -224,8 +177,12 @@ bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, TraceQuery q
   query.times = &times_of(rays);
   query.scattered = query.scattered && has_cones();
   query.cones = &cones;
-  if (instances) return instances->trace(tracing, geometry, rays, count, query, interrupted);
-  return tracing.trace(geometry, rays, count, query, interrupted);
+  if (instances)
+    return instances->trace(image->tracing(), image->geometry(), rays, count, query, interrupted);
+  if (image) return image->trace(rays, count, query, interrupted);
+  // Of other rays, and of shadows that nothing is cut out of, nobody asks what they have hit.
+  const bool kept = &rays == &primary || (&rays == &shadow && materials.has_masks);
+  return portions->trace(rays, count, query, interrupted, kept ? found_by(rays) : nullptr);
 }
 
 // By rays through a grid of points of the picture.
@@ -298,15 +255,17 @@ void Renderer::State::upload_cameras(const layout::FrameRecord& record, const st
 // the nearest hit has to be found each time, also for shadow rays. False: interrupted.
 bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query,
                                    const Interrupted& interrupted) {
-  if (tables.has_masks) query.any_hit = false;
+  if (materials.has_masks) query.any_hit = false;
   if (!trace(rays, count, query, interrupted)) return false;
-  if (!tables.has_masks) return true;
+  if (!materials.has_masks) return true;
   query.restarted = true;
   do {
-    tracing.clear_pending();
-    run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), tracing.pending().id()}),
+    uint32_t count_cut_out = 0;
+    backend.upload(cut_out.id(), std::as_bytes(std::span(&count_cut_out, 1)));
+    run(passes::mask, surface_buffers(rays, {rays.rays.id(), rays.states.id(), cut_out.id()}),
         layout::CountPush{count}, count, surface_constants(layout::recursion_none, query.scattered));
-    if (tracing.take_pending() == 0) return true;
+    backend.download(cut_out.id(), std::as_writable_bytes(std::span(&count_cut_out, 1)), 0);
+    if (count_cut_out == 0) return true;
   } while (trace(rays, count, query, interrupted));
   return false;
 }
@@ -406,8 +365,12 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
 std::vector<PassRecord> Renderer::setup_passes() const {
   return state_->setup;
 }
+std::optional<Streaming> Renderer::streaming() const {
+  if (!state_->portions) return {};
+  return state_->portions->streaming();
+}
 Traversal Renderer::traversal() const {
-  return state_->tracing.traversal();
+  return state_->image ? state_->image->tracing().traversal() : state_->portions->traversal();
 }
 void Renderer::update(const scene::Pose& pose, const View* view) {
   state_->look_from(view);
@@ -415,8 +378,9 @@ void Renderer::update(const scene::Pose& pose, const View* view) {
 }
 
 std::vector<glm::uvec4> Renderer::texel_map() {
+  if (!state_->image) return state_->atlas.texel_map;
   std::vector<glm::uvec4> texels(state_->atlas.texel_map.size());
-  state_->backend.download(state_->texel_map(), std::as_writable_bytes(std::span(texels)), 0);
+  state_->backend.download(state_->image->texel_map(), std::as_writable_bytes(std::span(texels)), 0);
   return texels;
 }
 

@@ -56,6 +56,9 @@ struct Settings {
   uint32_t shutter_segments = 0;
   // Levels of detail (layout/detail.h): the error, in pixels, that rays tolerate; 0: none, every quad counts.
   float pixels_of_error = 0;
+  // Bytes that may be allocated on the device; where the scene does not fit, portions of it come and go
+  // (layout/portion.h). 0: as many as there are.
+  uint64_t device_memory = 0;
 };
 
 // A camera in the world: rays start at `origin` and go through the image plane origin + forward + x right + y
@@ -93,6 +96,13 @@ struct Moment {
   View view;
 };
 
+// How a scene that is larger than Settings::device_memory was rendered.
+struct Streaming {
+  uint32_t portions = 0;
+  uint64_t loads = 0;       // of a portion onto the device
+  uint64_t peak_bytes = 0;  // the most that was allocated there
+};
+
 struct FrameResult {
   image::Image linear;   // R G B A and the AOVs, under their EXR channel names
   image::Image display;  // R G B after exposure, view transform and sRGB encoding; the sky behind everything
@@ -105,7 +115,8 @@ class Renderer {
  public:
   // Uploads everything static and runs `links`. The scene, assembly and atlas must outlive the renderer.
   // Throws Error(usage) where sweeps are wanted of mapped charts whose maps the atlas does not have, and
-  // where something is to move, or get coarser, of which the assembly has instances.
+  // where something is to move, or get coarser, of which the assembly has instances; and where
+  // Settings::device_memory is too little.
   Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
            const geometry_image::Atlas& atlas, const Settings& settings);
   ~Renderer();
@@ -119,6 +130,7 @@ class Renderer {
 
   std::vector<PassRecord> setup_passes() const;  // the records of `links`
   Traversal traversal() const;                   // what `automatic` became
+  std::optional<Streaming> streaming() const;    // so far; none: all of the scene is on the device
 
   // The pieces of a frame, for benchmarks: blend, relax, rasterise and bounds, and the texel map that they
   // were for; then given rays (two vec4 each: origin and tmin, direction and tmax) against the hierarchy,

@@ -9,12 +9,12 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/recursion.h"
 #include "lodestone/render/denoiser.h"
-#include "lodestone/render/detail.h"
 #include "lodestone/render/environment_tables.h"
+#include "lodestone/render/geometry_image.h"
 #include "lodestone/render/instances.h"
-#include "lodestone/render/relaxation.h"
+#include "lodestone/render/material_tables.h"
+#include "lodestone/render/portions.h"
 #include "lodestone/render/renderer.h"
-#include "lodestone/render/scene_tables.h"
 #include "lodestone/render/tracing.h"
 #include "lodestone/scene/pose_box.h"
 #include "lodestone/scene/pose_reach.h"
@@ -27,21 +27,19 @@ struct Renderer::State {
   const scene::Assembly& assembly;
   const geometry_image::Atlas& atlas;
   Settings settings;
-  SceneTables tables;
+  MaterialTables materials;
   EnvironmentTables environment;
-  std::optional<Detail> detail;
-  Tracing tracing;
+  // One of the two: all of the surface is on the device, or portions of it come and go.
+  std::optional<GeometryImage> image;
+  std::optional<Portions> portions;
   scene::PoseReach reach;
   scene::PoseBox pose_box;
-  std::optional<Relaxation> relaxation;
   std::optional<Instances> instances;  // none: all of the scene is one object in the world
-  bool rigid_done = false;             // rigid objects are as they will always be
   std::optional<Denoiser> denoiser;
   std::vector<PassRecord> setup;
 
   // Rewritten every frame.
-  Buffer weights, matrices, positions, normals, tangents, geometry, normal_map;
-  Buffer frame, lights, cameras;
+  Buffer frame, lights, cameras, cut_out;
   layout::RayCone camera{};  // what rays tolerate that have not been scattered
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
@@ -65,16 +63,19 @@ struct Renderer::State {
   }
 
   std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
+    const FoundSurface* found = found_by(rays);
+    const SurfaceBuffers surface = found != nullptr ? found->buffers() : image->buffers();
     std::vector<BufferId> ids = {
-        rays.hits.id(), geometry.id(), normal_map.id(), texel_map(), tables.triangles.id(), positions.id(),
-        normals.id(), tangents.id(), tables.texcoords.id(), tables.images.id(), tables.srgb_table.id(),
-        tables.charts.id(), tables.parts.id(), tables.materials.id(), tables.textures.id(), frame.id(),
+        found != nullptr ? found->hits.id() : rays.hits.id(), surface.geometry, surface.normal_map,
+        surface.texel_map, surface.triangles, surface.positions, surface.normals, surface.tangents,
+        surface.texcoords, materials.images.id(), materials.srgb_table.id(), surface.charts,
+        materials.parts.id(), materials.materials.id(), materials.textures.id(), frame.id(),
         // What the constants leave out nothing reads; any words and quads will do.
         instances                       ? rays.instances.id()
         : settings.shutter_segments > 0 ? times_of(rays).id()
                                         : rays.steps.id(),
         instances ? instances->records().id() : (has_cones() ? cones : rays.trails).id(),
-        detail ? detail->collapses().id() : rays.steps.id()};
+        has_detail() ? image->detail()->collapses().id() : rays.steps.id()};
     ids.insert(ids.end(), more);
     return ids;
   }
@@ -86,12 +87,12 @@ struct Renderer::State {
     const uint32_t placing = instances                  ? layout::placing_instances
                              : scattered && has_cones() ? layout::placing_cones
                                                         : 0;
-    return {sources(), tables.layered, environment.map, recursion, placing, settings.shutter_segments};
+    return {sources(), materials.layered, environment.map, recursion, placing | kept(), seen_segments()};
   }
 
   // Of those that take every surface for a plain one.
   std::array<uint32_t, pass_constants> plain_constants() const {
-    return {sources(), 0, 0, 0, instances ? layout::placing_instances : 0, settings.shutter_segments};
+    return {sources(), 0, 0, 0, instances ? layout::placing_instances : kept(), seen_segments()};
   }
 
   // A shadow ray's time is that of the ray it comes from.
@@ -99,21 +100,26 @@ struct Renderer::State {
     return &rays == &shadow ? primary.times : rays.times;
   }
 
-  uint32_t sources() const { return detail ? layout::detailed_sources : tables.sources; }
+  uint32_t sources() const { return image ? image->sources() : portions->sources(); }
+  bool has_detail() const { return image && image->detail(); }
+
+  // What is kept ray by ray is as it was when it was hit.
+  uint32_t kept() const { return portions ? layout::placing_found : 0; }
+  uint32_t seen_segments() const { return portions ? 0 : settings.shutter_segments; }
+  // Null: the surface is there.
+  const FoundSurface* found_by(const RayBuffers& rays) const {
+    if (!portions) return nullptr;
+    return &rays == &shadow ? &portions->found_by_shadows() : &portions->found();
+  }
 
   // Of rays that have been scattered, with levels of detail.
   bool has_cones() const { return static_cast<bool>(cones); }
 
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
 
-  // Of this frame.
-  BufferId texel_map() const { return relaxation ? relaxation->texel_map() : tables.texel_map.id(); }
-
-  void prepare_relaxation();
-  void blend(const scene::Pose& pose, const Buffer& blended_positions);
-  void rasterise(uint32_t first_texel, uint32_t image);
+  void make_surface();
+  PosedVertices posed(const scene::Pose& pose) const;
   void update(const scene::Pose& pose, const std::vector<Moment>& shutter);
-  void update_moving(const scene::Pose& pose, const std::vector<Moment>& shutter);
   float find_focus(const View& view);
   void look_from(const View* view);
   void begin_frame(const scene::Pose& pose, const View& view, const std::vector<Moment>& shutter);

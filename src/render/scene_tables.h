@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Everything static on the device: vertices and their deltas, the atlas, materials, textures. Uploaded once.
+// What is static of a surface, on the device: vertices and their deltas, and the atlas. Uploaded once.
 #pragma once
 
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/render/backend.h"
 #include "lodestone/scene/assembly.h"
-#include "lodestone/scene/scene.h"
 
 namespace lodestone::render {
 
 struct SceneTables {
-  SceneTables(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
-              const geometry_image::Atlas& atlas);
+  SceneTables(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas);
 
   // Inputs of blend.
   Buffer base_positions, base_normals, base_tangents, vertex_ranges;
   Buffer morph_positions, morph_normals, morph_tangents, influences;
   // The atlas.
   Buffer triangles, texel_map, leaf_map, charts;
-  // Shading.
-  Buffer texcoords, parts, materials, textures, images, srgb_table;
-  bool has_masks = false;             // some material cuts out texels
-  uint32_t sources = 1, layered = 0;  // layout/surface.h
+  Buffer texcoords;
+  uint32_t sources = 1;  // layout/surface.h
 };
 
 // Buffers of `name` filled with an array; arrays may be empty.

@@ -61,7 +61,6 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
   objects_ = Buffer(backend, {"objects", 4 * uint64_t(trees_.size()), 16});
   if (uses_boxes()) {
     boxes_ = Buffer(backend, {"boxes", 3 * node_count_, 16});
-    extents_ = Buffer(backend, {"extents", trees_.size(), 4});
     return;
   }
   nodes_lo_ = Buffer(backend, {"nodes_lo", node_count_, 16});
@@ -125,8 +124,8 @@ void Tracing::build_links(const Tree& tree) {
   }
 }
 
-void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes, size_t first) {
-  const std::vector<uint32_t> zeros(trees_.size() - first, 0);
+void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes,
+                    const std::vector<scene::Bounds>& whole, size_t first) {
   for (size_t i = first; i < trees_.size(); ++i) {
     const Tree& tree = trees_[i];
     layout::ObjectRecord& record = records_[i];
@@ -139,9 +138,9 @@ void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& bo
     record.lo = boxes[i].lo;
     record.hi = boxes[i].hi;
     record.step = make_grid(boxes[i]).step;
+    record.extent = std::max(layout::largest_abs(whole[i].lo), layout::largest_abs(whole[i].hi));
   }
   backend_.upload(objects_.id(), std::as_bytes(std::span(records_)));
-  if (uses_boxes()) backend_.upload(extents_.id(), std::as_bytes(std::span(zeros)), 4 * first);
   for (size_t i = first; i < trees_.size(); ++i) {
     if (uses_boxes()) {
       build_boxes(geometry, i);
@@ -186,24 +185,15 @@ void Tracing::build_boxes(const Buffer& geometry, size_t object) {
   const uint32_t depth = tree.levels.depth();
   const auto written = [&](uint32_t level) { return level > 0 ? tree.levels.places(level - 1) : 0; };
   const auto push_of = [&](uint32_t level, uint32_t count, uint32_t above, uint32_t first_item) {
-    return layout::BoxesPush{level,
-                             count,
-                             written(level),
-                             above,
-                             grid,
-                             tree.first_node,
-                             tree.first_slot,
-                             first_item,
-                             static_cast<uint32_t>(object),
-                             image,
-                             image + image_texels_};
+    return layout::BoxesPush{level,           count,           written(level), above, grid,
+                             tree.first_node, tree.first_slot, first_item,     image, image + image_texels_};
   };
   if (tree.blocks > 0) {
-    run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id(), extents_.id()},
+    run(passes::boxes_blocks, {leaf_blocks_.id(), geometry.id(), boxes_.id()},
         push_of(depth, tree.blocks, 0, tree.first_block), tree.blocks);
   }
   if (tree.groups > 0 || depth == 1) {
-    run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), extents_.id(), leaf_groups_.id()},
+    run(passes::boxes_leaves, {leaf_map_.id(), geometry.id(), boxes_.id(), leaf_groups_.id()},
         push_of(depth, tree.levels.slots(), tree.groups, tree.first_group),
         depth == 1 ? written(depth) : tree.groups, {segments_ > 0 ? 1u : 0u});
   }
@@ -248,7 +238,7 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
     of_objects.insert(of_objects.end(), {rays.steps.id(), geometry.id(), geometry.id(), geometry.id()});
   }
   if (uses_boxes()) {
-    buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), extents_.id(), rays.trails.id()});
+    buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), rays.trails.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
     push.budget =
         (loop_budget_ + 1) / 2;  // its loops have up to twice as many iterations a step as the others'
@@ -277,8 +267,8 @@ void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uin
   push.budget = loop_budget_;
   run(passes::trace_tile,
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
-       boxes_.id(), leaf_map_.id(), extents_.id(), objects_.id(), rays.steps.id(), rays.steps.id(),
-       rays.steps.id(), geometry.id(), geometry.id(), geometry.id()},
+       boxes_.id(), leaf_map_.id(), objects_.id(), rays.steps.id(), rays.steps.id(), rays.steps.id(),
+       geometry.id(), geometry.id(), geometry.id()},
       push, tiles * layout::tile_lanes);
 }
 

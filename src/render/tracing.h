@@ -67,7 +67,9 @@ class Tracing {
 
   // Of the objects from `first` on: the bounds of all quads, and of the nodes above them. `boxes`: one an
   // object, round all of its surface; of each segment, where there are any, one after the other.
-  void build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes, size_t first);
+  // `whole`: of each the box that ObjectRecord::extent is of.
+  void build(const Buffer& geometry, const std::vector<scene::Bounds>& boxes,
+             const std::vector<scene::Bounds>& whole, size_t first);
 
   // The first `count` rays to their end, in as many dispatches as the budget of each needs. `roots`: a word a
   // ray says through which object it goes; null: all go through the first. False: interrupted.
@@ -122,7 +124,7 @@ class Tracing {
   Buffer objects_;                                   // the same on the device
   Buffer nodes_lo_, nodes_hi_, links_, wide_nodes_;  // 32 bits, and the CPU's copy in 16
   Buffer leaf_blocks_, leaf_groups_;
-  Buffer boxes_, extents_;  // 16 bits
+  Buffer boxes_;  // 16 bits
   Buffer pending_;
 };
 

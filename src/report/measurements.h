@@ -75,6 +75,10 @@ struct RunRecord {
   std::vector<Dispatch> setup;  // passes that ran once, before the first frame
   std::vector<Frame> frames;
   uint64_t device_bytes = 0;
+  struct {
+    uint32_t portions = 0;  // of a scene that is larger than the device's memory; 0: it is not
+    uint64_t loads = 0, peak_bytes = 0;
+  } streaming;
 };
 
 // All dispatches of all frames.

@@ -93,6 +93,11 @@ std::string statistics_json(const RunRecord& run) {
   for (const Frame& frame : run.frames) json["frames"].push_back(to_json(frame, run.device.kind == "cpu"));
   json["totals"] = totals(run);
   json["memory"] = {{"device_mb", double(run.device_bytes) / 1e6}, {"peak_rss_mb", peak_rss_mb()}};
+  if (run.streaming.portions > 0) {
+    json["memory"]["device_peak_mb"] = double(run.streaming.peak_bytes) / 1e6;
+    json["memory"]["portions"] = run.streaming.portions;
+    json["memory"]["portion_loads"] = run.streaming.loads;
+  }
   // A file name need not be UTF-8, JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
