@@ -29,6 +29,7 @@ Scene load_stl(const std::filesystem::path& path);
 Scene load_height_map(const std::filesystem::path& path, const LoadOptions& options);
 
 // The embedded scenes, without the prefix `builtin:`.
+// Beside these there is terrain:QUADS, the same mountains in so many quads a side, at rest.
 std::vector<std::string> builtin_names();
 Scene make_builtin(const std::string& name);
 

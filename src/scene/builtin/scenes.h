@@ -18,6 +18,9 @@ Scene make_spheres();
 Scene make_teapots();
 // A fractal height field of charts of unequal odd sizes with a moving wave; 40,000 triangles.
 Scene make_terrain();
+// Its mountains in so many quads a side, at rest, in charts of at most 1024.
+Scene make_large_terrain(uint32_t quads);
+inline constexpr uint32_t least_terrain = 16, largest_terrain = 8192;
 // Two grids with a handful of triangles and one blendshape.
 Scene make_tiny();
 
