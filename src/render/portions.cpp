@@ -99,12 +99,12 @@ Portions::Portions(Backend& backend, const scene::Scene& scene, const scene::Ass
       atlas_(atlas),
       settings_(settings_of_portions(settings)),
       sources_(sources_of(atlas)),
-      local_(backend, "local_", rays),
       found_(backend, "found_", rays, sources_),
       wanted_(backend, {"wanted", 1, 4}),
       no_runs_(backend, {"no_runs", 2, 4}),
       maker_(assembly, atlas, scene.name),
       rest_(scene::blended_positions(assembly, rest.weights, rest.matrices)) {
+  reserve(rays);
   if (masks) shadow_found_ = FoundSurface(backend, "shadow_found_", rays, sources_);
   plan(settings, bytes);
   streaming_.portions = static_cast<uint32_t>(portions_.size());
@@ -112,6 +112,13 @@ Portions::Portions(Backend& backend, const scene::Scene& scene, const scene::Ass
 }
 
 Portions::~Portions() = default;
+
+void Portions::reserve(uint32_t rays) {
+  if (rays <= capacity_) return;
+  capacity_ = rays;
+  local_ = {};
+  local_ = RayBuffers(backend_, "local_", rays);
+}
 
 // As few as can be that leave room for several.
 void Portions::plan(const Settings& settings, uint64_t bytes) {
@@ -203,6 +210,7 @@ bool Portions::wants(const RayBuffers& rays, const layout::PortionPush& push, bo
 
 bool Portions::trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query,
                      const Interrupted& interrupted, const FoundSurface* found) {
+  reserve(count);
   const std::array<uint32_t, pass_constants> begin_constants{0, query.steps ? 1u : 0u};
   run(query.shadow ? passes::occlude_portion_begin : passes::portion_begin,
       {rays.rays.id(), rays.hits.id(), rays.states.id(), rays.steps.id(),

@@ -57,6 +57,7 @@ class Portions {
  private:
   struct Resident;
 
+  void reserve(uint32_t rays);
   void plan(const Settings& settings, uint64_t bytes);
   uint64_t bytes_of(const geometry_image::Portion& portion) const;
   template <class Push>
@@ -77,7 +78,8 @@ class Portions {
   const geometry_image::Atlas& atlas_;
   Settings settings_;
   uint32_t sources_;
-  RayBuffers local_;
+  RayBuffers local_;  // of `capacity_` rays
+  uint32_t capacity_ = 0;
   FoundSurface found_, shadow_found_;
   Buffer wanted_, no_runs_;
   geometry_image::PortionMaker maker_;

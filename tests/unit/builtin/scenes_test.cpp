@@ -127,6 +127,25 @@ TEST(Builtins, AreListedByName) {
   EXPECT_EQ(scene::builtin_names(), expected);
 }
 
+TEST(Builtins, MakeTheTerrainAsLargeAsOneLikes) {
+  for (const uint32_t quads : {16u, 300u, 1030u}) {
+    const scene::Scene terrain = scene::make_builtin("terrain:" + std::to_string(quads));
+    ASSERT_EQ(terrain.meshes.size(), 1u);
+    const Mesh& mesh = terrain.meshes[0];
+    EXPECT_EQ(mesh.triangles.size(), 2 * size_t(quads) * quads);
+    EXPECT_EQ(mesh.positions.size(), size_t(quads + 1) * (quads + 1));
+    EXPECT_EQ(mesh.grids.size(), quads > 1024 ? 4u : 1u);
+    // The same mountains, which more quads only show more of.
+    float highest = 0;
+    for (const glm::vec3& p : mesh.positions) {
+      EXPECT_LE(std::max(std::abs(p.x), std::abs(p.z)), 5.3f);
+      highest = std::max(highest, p.y);
+    }
+    EXPECT_NEAR(highest, 1.2f, 0.3f);
+  }
+  EXPECT_EQ(scene::make_builtin("terrain:16").name, "builtin:terrain:16");
+}
+
 TEST(Builtins, RefuseAnUnknownNameAndListTheKnownOnes) {
   try {
     scene::make_builtin("teapot");
