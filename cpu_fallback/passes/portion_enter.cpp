@@ -23,12 +23,17 @@ class PortionEnter : public Kernel<Probe> {
                         layout::slab_enter(slabs, push_.lo, push_.hi, ray.tmin) <=
                             layout::slab_exit(slabs, push_.lo, push_.hi, layout::uintBitsToFloat(hit.x));
     if (enters) std::atomic_ref<uint32_t>(wanted_.words[0]).store(1, std::memory_order_relaxed);
-    if (push_.runs == 0) return;
-    along.w = enters ? hit.x : layout::floatBitsToUint(-1.0f);
-    this->store(local_rays_, 2 * uint64_t(index), from);
-    this->store(local_rays_, 2 * uint64_t(index) + 1, along);
-    this->store(local_states_, index,
-                uvec4(0, 0, layout::trace_restart, enters ? local_primitive(state.w) : layout::no_index));
+    if (enters) {
+      along.w = hit.x;
+      this->store(local_rays_, 2 * uint64_t(index), from);
+      this->store(local_rays_, 2 * uint64_t(index) + 1, along);
+      this->store(
+          local_states_, index,
+          uvec4(0, 0, layout::trace_restart, push_.runs != 0 ? local_primitive(state.w) : layout::no_index));
+    } else {
+      this->store(local_states_, index, uvec4(0, 0, layout::trace_finished, layout::no_index));
+      this->store(local_hits_, index, uvec4(0, 0, 0, layout::no_index));
+    }
     if (this->constant(1) != 0) this->store(local_steps_, index, 0);
   }
 
@@ -55,8 +60,8 @@ class PortionEnter : public Kernel<Probe> {
 
   Quads rays_ = this->quads(0), hits_ = this->quads(1), states_ = this->quads(2);
   Words runs_ = this->words(3);
-  Quads local_rays_ = this->quads(4), local_states_ = this->quads(5);
-  Words local_steps_ = this->words(6), wanted_ = this->words(7);
+  Quads local_rays_ = this->quads(4), local_states_ = this->quads(5), local_hits_ = this->quads(6);
+  Words local_steps_ = this->words(7), wanted_ = this->words(8);
   layout::PortionPush push_ = this->template push<layout::PortionPush>();
 };
 

@@ -13,9 +13,10 @@ QUADS(2, readonly, states);
 WORDS(3, readonly, runs);  // { first texel in the portion, in the whole }
 QUADS(4, writeonly, local_rays);
 QUADS(5, writeonly, local_states);
-WORDS(6, writeonly, local_steps);
-STRUCTS(7, restrict, uint, wanted);  // 1: by some ray
-COUNTERS(8)
+QUADS(6, writeonly, local_hits);
+WORDS(7, writeonly, local_steps);
+STRUCTS(8, restrict, uint, wanted);  // 1: by some ray
+COUNTERS(9)
 PUSH(PortionPush, push);
 
 layout(constant_id = 3) const uint write_steps = 0u;
@@ -64,14 +65,17 @@ void main() {
                 slab_enter(slabs, push.lo, push.hi, ray.tmin) <=
                     slab_exit(slabs, push.lo, push.hi, uintBitsToFloat(hit.x));
   if (enters && wanted[0] == 0u) atomicMax(wanted[0], 1u);
-  if (push.runs != 0u) {
-    along.w = enters ? hit.x : floatBitsToUint(-1.0);
+  if (enters) {
+    along.w = hit.x;
     STORE4(local_rays, 2u * index, from);
     STORE4(local_rays, 2u * index + 1u, along);
     uint next = no_index;
-    if (enters) next = local_primitive(state.w);
+    if (push.runs != 0u) next = local_primitive(state.w);
     STORE4(local_states, index, uvec4(0u, 0u, trace_restart, next));
-    if (write_steps != 0u) STORE1(local_steps, index, 0u);
+  } else {
+    STORE4(local_states, index, uvec4(0u, 0u, trace_finished, no_index));
+    STORE4(local_hits, index, uvec4(0u, 0u, 0u, no_index));
   }
+  if (write_steps != 0u) STORE1(local_steps, index, 0u);
   flush_counters();
 }

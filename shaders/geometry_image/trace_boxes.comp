@@ -28,18 +28,18 @@ void main() {
   if (index >= push.rays) return;
   boxes_a_step = 4u;
   Ray ray = load_ray(index);
-  uint root = load_root(index);
-  ObjectRecord object = load_object(root);
-  Slabs slabs = make_slabs(ray, object.extent);
-  Shear shear = make_shear(ray);
-  BoxRay box_ray = make_box_ray(slabs, object_grid(object));
-  load_tolerance(index);
   Hit best;
   uvec4 state;
   if (!begin_ray(index, ray, best, state)) {
     flush_counters();
     return;
   }
+  uint root = load_root(index);
+  ObjectRecord object = load_object(root);
+  Slabs slabs = make_slabs(ray, object.extent);
+  Shear shear = make_shear(ray);
+  BoxRay box_ray = make_box_ray(slabs, object_grid(object));
+  load_tolerance(index);
 
   BoxWalk walk;
   walk.index = state.x;

@@ -20,8 +20,8 @@ CONST uint found_vertices = 3u;  // of a triangle
 struct PortionPush {
   uint count;         // rays
   uint restarted;     // portion_begin: 1, only those that `mask` has sent on
-  uint runs;          // texels that follow one another in the portion and in the whole; 0: portion_enter only
-                      // finds out whether any ray comes near
+  uint runs;          // texels that follow one another in the portion and in the whole; 0: portion_enter need
+                      // not know, where no ray is one of those
   uint image_texels;  // where something moves (layout/motion.h): of a geometry image
   vec3 lo;            // a box round the portion
   float extent;       // ObjectRecord::extent

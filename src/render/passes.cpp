@@ -162,10 +162,10 @@ constexpr Binding portion_begin_bindings[] = {{"rays", quad, read},
                                               {"steps", word, write},
                                               {"found_hits", quad, write}};
 
-constexpr Binding portion_enter_bindings[] = {{"rays", quad, read},         {"hits", quad, read},
-                                              {"states", quad, read},       {"runs", word, read},
-                                              {"local_rays", quad, write},  {"local_states", quad, write},
-                                              {"local_steps", word, write}, {"wanted", structs, read_write}};
+constexpr Binding portion_enter_bindings[] = {
+    {"rays", quad, read},        {"hits", quad, read},         {"states", quad, read},
+    {"runs", word, read},        {"local_rays", quad, write},  {"local_states", quad, write},
+    {"local_hits", quad, write}, {"local_steps", word, write}, {"wanted", structs, read_write}};
 
 constexpr Binding portion_end_bindings[] = {{"local_hits", quad, read},
                                             {"local_steps", word, read},

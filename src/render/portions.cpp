@@ -197,15 +197,41 @@ layout::PortionPush Portions::push_of(uint32_t portion, uint32_t count, bool res
   return {count, restarted ? 1u : 0u, 0, images, box.lo, extent_, box.hi};
 }
 
-bool Portions::wants(const RayBuffers& rays, const layout::PortionPush& push, bool shadow) {
+void Portions::enter(const RayBuffers& rays, const layout::PortionPush& push, const TraceQuery& query,
+                     const Buffer& runs) {
+  run(query.shadow ? passes::occlude_portion_enter : passes::portion_enter,
+      {rays.rays.id(), rays.hits.id(), rays.states.id(), runs.id(), local_.rays.id(), local_.states.id(),
+       local_.hits.id(), local_.steps.id(), wanted_.id()},
+      push, push.count, {0, query.steps ? 1u : 0u});
+}
+
+// Whether any ray comes near; those that do then begin there, unless they go on behind something.
+bool Portions::wants(const RayBuffers& rays, const layout::PortionPush& push, const TraceQuery& query) {
   uint32_t wanted = 0;
   backend_.upload(wanted_.id(), std::as_bytes(std::span(&wanted, 1)));
-  run(shadow ? passes::occlude_portion_enter : passes::portion_enter,
-      {rays.rays.id(), rays.hits.id(), rays.states.id(), no_runs_.id(), local_.rays.id(), local_.states.id(),
-       local_.steps.id(), wanted_.id()},
-      push, push.count, {});
+  enter(rays, push, query, no_runs_);
   backend_.download(wanted_.id(), std::as_writable_bytes(std::span(&wanted, 1)), 0);
   return wanted != 0;
+}
+
+// What is there already comes first: it may have to go for the others. Of those the nearest to the camera.
+std::vector<uint32_t> Portions::order() const {
+  std::vector<uint32_t> order;
+  std::vector<bool> there(portions_.size(), false);
+  for (const Resident& resident : residents_) {
+    order.push_back(resident.portion);
+    there[resident.portion] = true;
+  }
+  const auto first = static_cast<std::ptrdiff_t>(order.size());
+  std::vector<float> distance(portions_.size(), 0);
+  for (uint32_t p = 0; p < portions_.size(); ++p) {
+    if (there[p] || bounds_[p].empty) continue;
+    distance[p] = glm::length(glm::max(glm::vec3(0), glm::max(bounds_[p].lo - eye_, eye_ - bounds_[p].hi)));
+    order.push_back(p);
+  }
+  std::stable_sort(order.begin() + first, order.end(),
+                   [&](uint32_t a, uint32_t b) { return distance[a] < distance[b]; });
+  return order;
 }
 
 bool Portions::trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query,
@@ -219,23 +245,14 @@ bool Portions::trace(const RayBuffers& rays, uint32_t count, const TraceQuery& q
   TraceQuery local = query;
   local.restarted = true;
   local.common_origin = false;
-  // What is there already first: it may have to go for the others.
-  std::vector<uint32_t> order;
-  for (const Resident& resident : residents_) order.push_back(resident.portion);
-  const std::vector<uint32_t> there = order;
-  for (uint32_t p = 0; p < portions_.size(); ++p)
-    if (std::find(there.begin(), there.end(), p) == there.end()) order.push_back(p);
-  for (const uint32_t portion : order) {
+  for (const uint32_t portion : order()) {
     layout::PortionPush push = push_of(portion, count, query.restarted);
-    if (bounds_[portion].empty || !wants(rays, push, query.shadow)) continue;
+    if (bounds_[portion].empty || !wants(rays, push, query)) continue;
     Resident& resident = load(portion);
     if (!resident.placed) place(resident);
     push.runs = resident.run_count;
     push.image_texels = resident.image.texels();
-    run(query.shadow ? passes::occlude_portion_enter : passes::portion_enter,
-        {rays.rays.id(), rays.hits.id(), rays.states.id(), resident.runs.id(), local_.rays.id(),
-         local_.states.id(), local_.steps.id(), wanted_.id()},
-        push, count, begin_constants);
+    if (query.restarted) enter(rays, push, query, resident.runs);
     if (!resident.image.trace(local_, count, local, interrupted)) return false;
     end(rays, push, query, resident, found);
   }

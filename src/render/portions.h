@@ -44,6 +44,9 @@ class Portions {
   void update(const PosedVertices& pose, const std::vector<PosedVertices>& shutter,
               const std::vector<scene::Bounds>& boxes);
 
+  // Where rays come from at first: portions that are near are best loaded first.
+  void set_eye(const glm::vec3& eye) { eye_ = eye; }
+
   // As Tracing::trace. `found`: where the surface that rays hit is kept; null: nowhere.
   bool trace(const RayBuffers& rays, uint32_t count, const TraceQuery& query, const Interrupted& interrupted,
              const FoundSurface* found);
@@ -65,7 +68,10 @@ class Portions {
            const std::array<uint32_t, pass_constants>& constants) {
     backend_.run({&pass, buffers, std::as_bytes(std::span(&push, 1)), invocations, constants});
   }
-  bool wants(const RayBuffers& rays, const layout::PortionPush& push, bool shadow);
+  void enter(const RayBuffers& rays, const layout::PortionPush& push, const TraceQuery& query,
+             const Buffer& runs);
+  bool wants(const RayBuffers& rays, const layout::PortionPush& push, const TraceQuery& query);
+  std::vector<uint32_t> order() const;
   void end(const RayBuffers& rays, const layout::PortionPush& push, const TraceQuery& query,
            const Resident& resident, const FoundSurface* found);
   layout::PortionPush push_of(uint32_t portion, uint32_t count, bool restarted) const;
@@ -86,6 +92,7 @@ class Portions {
   std::vector<glm::vec3> rest_;
   std::vector<std::vector<geometry_image::ChartPiece>> portions_;
   std::vector<uint64_t> portion_bytes_;  // of each on the device; 0: not known yet
+  glm::vec3 eye_{0};
   // Of the pose.
   PosedVertices pose_;
   std::vector<PosedVertices> shutter_;

@@ -128,6 +128,7 @@ void Renderer::State::look_from(const View* view) {
   camera = view == nullptr ? layout::RayCone{}
                            : camera_cone(*view, settings.width, settings.height, settings.pixels_of_error);
   if (image) image->set_camera(camera);
+  if (portions && view != nullptr) portions->set_eye(view->origin);
 }
 
 PosedVertices Renderer::State::posed(const scene::Pose& pose) const {
