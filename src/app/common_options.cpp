@@ -390,7 +390,27 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       "refractions) is blurred: it looks cleaner than it is right. Wants --spp 2 or more");
 }
 
+namespace {
+
+void warn_of_idle_options(const PictureOptions& options) {
+  using render::Integrator;
+  const Integrator integrator = options.integrator;
+  const auto warn = [&](const char* option, const char* wants) {
+    log::warn(fmt::format("{} has no effect on --integrator {}: it is for {}", option, to_string(integrator),
+                          wants));
+  };
+  if (options.max_bounces &&
+      (integrator == Integrator::eye || integrator == Integrator::dof || integrator == Integrator::ao))
+    warn("--max-bounces", "specular, glossy and path");
+  if (options.ao_distance && integrator != Integrator::ao) warn("--ao-distance", "ao");
+  if (options.focus_distance > 0 && options.lens_radius == 0 && integrator != Integrator::dof)
+    warn("--focus-distance", "dof, or any other with --lens-radius");
+}
+
+}  // namespace
+
 render::Settings picture_settings(const PictureOptions& options) {
+  warn_of_idle_options(options);
   render::Settings settings;
   settings.width = options.size.width;
   settings.height = options.size.height;
@@ -398,8 +418,8 @@ render::Settings picture_settings(const PictureOptions& options) {
   settings.seed = options.seed;
   settings.traversal = options.traversal;
   settings.integrator = options.integrator;
-  settings.max_bounces = options.max_bounces;
-  settings.ao_distance = options.ao_distance;
+  settings.max_bounces = options.max_bounces.value_or(settings.max_bounces);
+  settings.ao_distance = options.ao_distance.value_or(settings.ao_distance);
   settings.lens_radius = options.lens_radius;
   settings.focus_distance = options.focus_distance;
   settings.denoise = options.denoise;

@@ -84,8 +84,8 @@ struct PictureOptions {
   render::CameraChoice camera;
   render::Traversal traversal = render::Traversal::automatic;
   render::Integrator integrator = render::Integrator::eye;
-  uint32_t max_bounces = 8;
-  float ao_distance = 1e30f;
+  std::optional<uint32_t> max_bounces;
+  std::optional<float> ao_distance;
   bool denoise = false;
   float lens_radius = 0, focus_distance = 0;  // 0: see render::Settings
 };
@@ -99,7 +99,7 @@ void add_seed_option(CLI::App& app, uint32_t& seed);
 void add_camera_options(CLI::App& app, render::CameraChoice& camera);
 // Those three, --spp, --traversal, and the integrator with all that it takes.
 void add_picture_options(CLI::App& app, PictureOptions& options);
-// What they say of a picture.
+// What they say of a picture. Warns of those that have no effect on it.
 render::Settings picture_settings(const PictureOptions& options);
 render::Traversal parse_traversal(const std::string& option, const std::string& text);
 

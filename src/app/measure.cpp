@@ -51,6 +51,10 @@ report::RunRecord describe_run(const std::string& command, const std::string& sc
   run.scene.vertices = prepared.assembly.positions.size();
   for (const scene::Mesh& mesh : prepared.scene.meshes) run.scene.morph_targets += mesh.targets.size();
   for (const scene::Skin& skin : prepared.scene.skins) run.scene.joints += skin.joints.size();
+  run.atlas = {prepared.atlas.charts.size(), prepared.atlas.report.quads, prepared.atlas.texel_map.size()};
+  run.settings.integrator = to_string(picture.integrator);
+  run.settings.seed = picture.seed;
+  run.settings.clip = prepared.clip_name();
   run.image = {picture.size.width, picture.size.height, picture.spp,
                picture.denoise ? render::denoise_description() : ""};
   run.precompute = prepared.stages;

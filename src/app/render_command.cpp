@@ -160,6 +160,7 @@ RenderRun::RenderRun(const RenderOptions& options)
   const double start = now_ms();
   renderer_.emplace(*device_.backend, prepared_.scene, prepared_.assembly, prepared_.atlas,
                     settings_of(options));
+  measured_.settings.traversal = to_string(renderer_->traversal());
   measured_.setup = to_dispatches(renderer_->setup_passes(), device_.origin_ms);
   measured_.precompute.push_back({"links", start, now_ms() - start});
   if (options_.picture.denoise) log::note("denoise: " + render::denoise_description());
@@ -225,6 +226,7 @@ bool RenderRun::render_frame(uint32_t frame) {
   measured.start_ms = now_ms();
   const scene::Pose pose = prepared_.pose_at(measured.time_s);
   const render::View view = view_of(prepared_, pose, options_.picture, bounds_);
+  measured_.settings.camera = view.name;
   const auto stop = [this] {
     progress_.tick();
     return interrupted();

@@ -71,6 +71,13 @@ struct RunRecord {
     uint32_t width = 0, height = 0, spp = 0;
     std::string denoise;  // what was done to the pictures after their samples; empty: nothing
   } image;
+  struct {
+    uint64_t charts = 0, quads = 0, texels = 0;
+  } atlas;
+  struct {
+    std::string integrator, traversal, camera, clip;  // the last is empty where nothing is played
+    uint32_t seed = 0;
+  } settings;
   std::vector<Stage> precompute;
   std::vector<Dispatch> setup;  // passes that ran once, before the first frame
   std::vector<Frame> frames;

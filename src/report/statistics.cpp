@@ -98,6 +98,12 @@ std::string statistics_json(const RunRecord& run) {
     json["memory"]["portions"] = run.streaming.portions;
     json["memory"]["portion_loads"] = run.streaming.loads;
   }
+  json["atlas"] = {{"charts", run.atlas.charts}, {"quads", run.atlas.quads}, {"texels", run.atlas.texels}};
+  json["settings"] = {{"integrator", run.settings.integrator},
+                      {"traversal", run.settings.traversal},
+                      {"seed", run.settings.seed},
+                      {"camera", text_or_null(run.settings.camera)},
+                      {"clip", text_or_null(run.settings.clip)}};
   // A file name need not be UTF-8, JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

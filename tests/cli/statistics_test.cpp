@@ -48,6 +48,12 @@ TEST_F(Statistics, DescribeTheRun) {
   EXPECT_EQ(json["scene"]["morph_targets"], 1);
   EXPECT_EQ(json["scene"]["joints"], 0);
   EXPECT_EQ(json["image"], (Json{{"width", 24}, {"height", 16}, {"spp", 1}}));
+  EXPECT_EQ(json["atlas"]["charts"], 2);
+  EXPECT_EQ(json["settings"]["integrator"], "eye");
+  EXPECT_EQ(json["settings"]["traversal"], "wide");
+  EXPECT_EQ(json["settings"]["seed"], 0);
+  EXPECT_TRUE(json["settings"]["camera"].is_string());
+  EXPECT_TRUE(json["settings"].contains("clip"));
 }
 
 TEST_F(Statistics, TimeThePrecomputationAndEveryFrame) {

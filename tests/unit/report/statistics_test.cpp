@@ -25,7 +25,7 @@ TEST(Statistics, HasTheFieldsOfTheContractInItsOrder) {
   run.frames[0].dispatches = {testing::counted_dispatch("bounds", 5)};
   const Json json = Json::parse(statistics_json(run));
   EXPECT_EQ(keys(json), (Keys{"lodestone", "command", "tracer", "device", "scene", "image", "precompute",
-                              "frames", "totals", "memory"}));
+                              "frames", "totals", "memory", "atlas", "settings"}));
   EXPECT_EQ(keys(json["device"]), (Keys{"kind", "name", "driver", "api"}));
   EXPECT_EQ(keys(json["scene"]), (Keys{"file", "triangles", "vertices", "morph_targets", "joints"}));
   EXPECT_EQ(keys(json["image"]), (Keys{"width", "height", "spp"}));
@@ -38,6 +38,13 @@ TEST(Statistics, HasTheFieldsOfTheContractInItsOrder) {
             (Keys{"rays", "node_visits", "box_tests", "triangle_tests", "active_lanes"}));
   EXPECT_EQ(keys(json["totals"]), (Keys{"rays", "mrays_per_s", "frames_per_s"}));
   EXPECT_EQ(keys(json["memory"]), (Keys{"device_mb", "peak_rss_mb"}));
+  EXPECT_EQ(keys(json["atlas"]), (Keys{"charts", "quads", "texels"}));
+  EXPECT_EQ(keys(json["settings"]), (Keys{"integrator", "traversal", "seed", "camera", "clip"}));
+  run.streaming = {3, 7, 5000000};
+  const Json streamed = Json::parse(statistics_json(run));
+  EXPECT_EQ(streamed["memory"]["device_peak_mb"], 5);
+  EXPECT_EQ(streamed["memory"]["portions"], 3);
+  EXPECT_EQ(streamed["memory"]["portion_loads"], 7);
 }
 
 TEST(Statistics, SaysHowPicturesWereDenoisedWhereTheyWere) {
