@@ -45,6 +45,7 @@ struct RenderOptions {
   DeviceOptions device;
   std::vector<std::string> aovs;
   bool noisy = false;  // is asked for like them
+  bool progressive = false;
   float exposure = 0;
   render::ViewTransform view = render::ViewTransform::filmic;
   std::string output, contact_sheet, statistics, profile;
@@ -104,6 +105,7 @@ render::Settings settings_of(const RenderOptions& options) {
   settings.exposure = options.exposure;
   settings.aovs = options.aovs;
   settings.noisy = options.noisy;
+  settings.progressive = options.progressive;
   return settings;
 }
 
@@ -125,7 +127,10 @@ class RenderRun {
   // Renders until done or interrupted.
   void render_frames();
   bool render_frame(uint32_t frame);
-  std::map<std::string, std::string> provenance(const report::Frame& frame, const render::View& view) const;
+  std::map<std::string, std::string> provenance(const report::Frame& frame, const render::View& view,
+                                                uint32_t samples) const;
+  // As far as it has got.
+  void write_picture(const report::Frame& frame, const render::View& view, render::FrameResult& result);
   void write_reports() const;
 
   const RenderOptions& options_;
@@ -167,8 +172,8 @@ RenderRun::RenderRun(const RenderOptions& options)
   log::note(fmt::format("{}: {} traversal", device_.backend->info().name, to_string(renderer_->traversal())));
 }
 
-std::map<std::string, std::string> RenderRun::provenance(const report::Frame& frame,
-                                                         const render::View& view) const {
+std::map<std::string, std::string> RenderRun::provenance(const report::Frame& frame, const render::View& view,
+                                                         uint32_t samples) const {
   const render::DeviceInfo& device = device_.backend->info();
   // As in the statistics: device times, null where a kernel was only compiled; wall times on the CPU.
   nlohmann::ordered_json times = nlohmann::ordered_json::object();
@@ -188,7 +193,7 @@ std::map<std::string, std::string> RenderRun::provenance(const report::Frame& fr
       {"traversal", to_string(renderer_->traversal())},
       {"integrator", to_string(options_.picture.integrator)},
       {"seed", std::to_string(options_.picture.seed)},
-      {"spp", std::to_string(options_.picture.spp)},
+      {"spp", std::to_string(samples)},
       {"frame", std::to_string(frame.frame)},
       {"time", fmt::format("{}", frame.time_s)},
       {"camera", view.name},
@@ -231,24 +236,40 @@ bool RenderRun::render_frame(uint32_t frame) {
     progress_.tick();
     return interrupted();
   };
+  const auto on_samples = [&](uint32_t, const std::function<render::FrameResult()>& picture) {
+    render::FrameResult so_far = picture();
+    measured.wall_ms = now_ms() - measured.start_ms;
+    write_picture(measured, view, so_far);
+  };
   std::optional<render::FrameResult> result =
       renderer_->render(pose, view, stop,
                         shutter_moments(options_.shutter, prepared_, options_.picture, bounds_,
-                                        measured.time_s, options_.frames.fps));
+                                        measured.time_s, options_.frames.fps),
+                        on_samples);
   if (!result) return false;
   measured.wall_ms = result->wall_ms;
   measured.dispatches = to_dispatches(result->passes, device_.origin_ms);
   sheet_.add(static_cast<uint32_t>(measured_.frames.size()), frame, result->display);
-  image::Image image = std::move(output_.is_png() ? result->display : result->linear);
-  image.metadata = provenance(measured, view);
-  add_camera(view, image);
-  writer_.push(output_.path(frame), std::move(image));
+  write_picture(measured, view, *result);
+  if (result->samples < options_.picture.spp) {
+    log::warn(fmt::format("interrupted: frame {} has at least {} of {} samples a pixel", frame,
+                          result->samples, options_.picture.spp));
+    return false;
+  }
   // Nobody reads them, and a long sequence has many.
   if (options_.statistics.empty() && options_.profile.empty() && log::level() != log::Level::verbose)
     measured.dispatches = {};
   measured_.frames.push_back(std::move(measured));
   progress_.frame_done();
   return true;
+}
+
+void RenderRun::write_picture(const report::Frame& frame, const render::View& view,
+                              render::FrameResult& result) {
+  image::Image image = std::move(output_.is_png() ? result.display : result.linear);
+  image.metadata = provenance(frame, view, result.samples);
+  add_camera(view, image);
+  writer_.push(output_.path(frame.frame), std::move(image));
 }
 
 void RenderRun::render_frames() {
@@ -296,6 +317,10 @@ void add_output_options(CLI::App& app, RenderOptions& options) {
       ->required();
   add_path(app, "--contact-sheet", "FILE.png",
            "Also write up to 24 frames of the sequence, as displayed, on one sheet", options.contact_sheet);
+  app.add_flag(
+      "--progressive", options.progressive,
+      "Write each picture after 1, 2, 4, ... samples a pixel too, over the one before; Ctrl-C keeps what "
+      "there is of it");
   add_value(app, "--aov", "LIST",
             fmt::format("More channels of an .exr: {}, and with --denoise noisy, the picture before it",
                         join_names(aov_names())),

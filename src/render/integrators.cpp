@@ -21,7 +21,7 @@ uint32_t Renderer::State::counted() {
 bool Renderer::State::add_unblocked(uint32_t count, bool scattered, const Interrupted& interrupted) {
   if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true, .scattered = scattered}, interrupted))
     return false;
-  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance.id()}, layout::CountPush{count},
+  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance().id()}, layout::CountPush{count},
       count);
   return true;
 }
@@ -32,7 +32,7 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, con
     push.light = light;
     run(passes::shade,
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
-                                  radiance.id(), environment.environments.id(), environment.quads.id(),
+                                  radiance().id(), environment.environments.id(), environment.quads.id(),
                                   environment.cells.id(), paths.id()}),
         push, push.rays, surface_constants(recursion, true));
     if (!add_unblocked(push.rays, push.vertex > 0, interrupted)) return false;
@@ -42,7 +42,7 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, con
 
 bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
   run(passes::ambient,
-      surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance.id()}),
+      surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance().id()}),
       layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
       rays.rays, plain_constants());
   return add_unblocked(rays.rays, false, interrupted);
@@ -75,7 +75,7 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
     count_from_zero();
     run(passes::path,
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
-                                  radiance.id(), paths.id(), going_on.id(), environment.environments.id(),
+                                  radiance().id(), paths.id(), going_on.id(), environment.environments.id(),
                                   environment.quads.id(), environment.cells.id()}),
         push, push.rays, surface_constants(layout::recursion_none, true));
     const bool last = counted() == 0;

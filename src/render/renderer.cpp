@@ -2,6 +2,7 @@
 #include "lodestone/render/renderer.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -60,6 +61,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
       reach(scene_in),
       pose_box(scene_in) {
   check_aovs(settings.aovs);
+  if (settings.progressive && settings.denoise)
+    fail(ExitCode::usage, "--progressive", "does not go together with --denoise; give one of them");
   const uint32_t segments = settings.shutter_segments;
   cameras = Buffer(device, {"cameras", layout::camera_quads * (uint64_t(segments) + 1), 16});
   cut_out = Buffer(device, {"cut_out", 1, 4});
@@ -82,7 +85,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   primary = RayBuffers(device, "", batch_rays, placed, segments > 0);
   shadow = RayBuffers(device, "shadow_", batch_rays, placed);
   contributions = Buffer(device, {"contributions", batch_rays, 16});
-  radiance = Buffer(device, {"radiance", batch_rays, 16});
+  const uint32_t sums = settings.progressive ? (total_rays() + batch_rays - 1) / batch_rays : 1;
+  for (uint32_t i = 0; i < sums; ++i) radiances.emplace_back(device, BufferDesc{"radiance", batch_rays, 16});
   paths = Buffer(device, {"paths", eye ? 0 : batch_rays, 16});
   const bool coned = settings.pixels_of_error > 0 && !eye;
   if (coned) cones = Buffer(device, {"cones", 2 * uint64_t(batch_rays), 16});
@@ -235,6 +239,7 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
   record.tolerance = camera.width;
   record.tolerance_spread = camera.spread;
   record.steepest = steepest_cone(camera);
+  frame_record = record;
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
   if (record.segments > 0) upload_cameras(record, shutter);
 }
@@ -279,41 +284,119 @@ void Renderer::State::run_camera(const layout::RayPush& push) {
       push, push.rays);
 }
 
-// All samples of a run of pixels. False: interrupted.
-bool Renderer::State::render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted) {
-  if (!settings.aovs.empty()) {
-    const bool wants_steps =
-        std::find(settings.aovs.begin(), settings.aovs.end(), "steps") != settings.aovs.end();
-    const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1, 0, 0, 1};
-    run_camera(push);
-    if (!trace_masked(primary, count, {.steps = wants_steps, .common_origin = true}, interrupted))
-      return false;
-    run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push,
-        count, surface_constants());
-  }
-  for (uint32_t sample = 0; sample < settings.spp; ++sample) {
-    const layout::RayPush push{first_ray,
-                               count,
-                               sample,
-                               settings.spp == 1 ? 1u : 0u,
-                               has_lens() ? 0u : 1u,
-                               0,
-                               sample == 0 ? 1u : 0u,
-                               0,
-                               settings.max_bounces,
-                               0};
-    run_camera(push);
-    if (!trace_masked(primary, count, {.common_origin = !has_lens()}, interrupted)) return false;
-    if (denoiser)
-      denoiser->add_features(surface_buffers(primary, {primary.rays.id()}), plain_constants(), count,
-                             sample == 0);
-    if (!integrate(push, interrupted)) return false;
-    if (denoiser) denoiser->add_sample(radiance, count, sample == 0);
-  }
-  run(passes::resolve, {frame.id(), radiance.id(), beauty.id(), display.id()},
-      layout::ResolvePush{first_ray, count}, count);
-  if (denoiser) denoiser->end_batch(frame, radiance, first_ray, count);
+// Of a run of pixels, through their centres. False: interrupted.
+bool Renderer::State::add_aovs(uint32_t first_ray, uint32_t count, const Interrupted& interrupted) {
+  if (settings.aovs.empty()) return true;
+  const bool wants_steps =
+      std::find(settings.aovs.begin(), settings.aovs.end(), "steps") != settings.aovs.end();
+  const layout::RayPush push{first_ray, count, 0, 1, 1, 0, 1, 0, 0, 1};
+  run_camera(push);
+  if (!trace_masked(primary, count, {.steps = wants_steps, .common_origin = true}, interrupted)) return false;
+  run(passes::aov, surface_buffers(primary, {primary.rays.id(), primary.steps.id(), aovs.id()}), push, count,
+      surface_constants());
   return true;
+}
+
+// One sample of a run of pixels. False: interrupted.
+bool Renderer::State::add_sample(uint32_t first_ray, uint32_t count, uint32_t sample,
+                                 const Interrupted& interrupted) {
+  const layout::RayPush push{first_ray,
+                             count,
+                             sample,
+                             settings.spp == 1 ? 1u : 0u,
+                             has_lens() ? 0u : 1u,
+                             0,
+                             sample == 0 ? 1u : 0u,
+                             0,
+                             settings.max_bounces,
+                             0};
+  run_camera(push);
+  if (!trace_masked(primary, count, {.common_origin = !has_lens()}, interrupted)) return false;
+  if (denoiser)
+    denoiser->add_features(surface_buffers(primary, {primary.rays.id()}), plain_constants(), count,
+                           sample == 0);
+  if (!integrate(push, interrupted)) return false;
+  if (denoiser) denoiser->add_sample(radiance(), count, sample == 0);
+  return true;
+}
+
+// What so many samples of a run of pixels have summed up to, as a picture.
+void Renderer::State::resolve(uint32_t first_ray, uint32_t count, uint32_t samples) {
+  if (frame_record.spp != samples) {
+    frame_record.spp = samples;
+    backend.upload(frame.id(), std::as_bytes(std::span(&frame_record, 1)));
+  }
+  run(passes::resolve, {frame.id(), radiance().id(), beauty.id(), display.id()},
+      layout::ResolvePush{first_ray, count}, count);
+}
+
+// body(first_ray, count) for each run of pixels, while it says true.
+template <class Body>
+bool Renderer::State::for_each_batch(const Body& body) {
+  const uint32_t total = total_rays();
+  batch = 0;
+  for (uint32_t first = 0; first < total; first += batch_rays, ++batch)
+    if (!body(first, std::min(batch_rays, total - first))) return false;
+  return true;
+}
+
+// All samples of one batch after the other. False: interrupted.
+bool Renderer::State::render_at_once(const Interrupted& interrupted) {
+  return for_each_batch([&](uint32_t first, uint32_t count) {
+    if (!add_aovs(first, count, interrupted)) return false;
+    for (uint32_t sample = 0; sample < settings.spp; ++sample)
+      if (!add_sample(first, count, sample, interrupted)) return false;
+    resolve(first, count, settings.spp);
+    if (denoiser) denoiser->end_batch(frame, radiance(), first, count);
+    return true;
+  });
+}
+
+// Of all batches one sample after the other. How many every pixel has got: fewer than wanted where it was
+// interrupted.
+uint32_t Renderer::State::render_by_samples(const Interrupted& interrupted, const OnSamples& on_samples) {
+  uint32_t shown = 0;  // samples that the picture has everywhere
+  for (uint32_t sample = 0; sample < settings.spp; ++sample) {
+    const bool done = for_each_batch([&](uint32_t first, uint32_t count) {
+      return (sample > 0 || add_aovs(first, count, interrupted)) &&
+             add_sample(first, count, sample, interrupted);
+    });
+    if (!done && sample == 0) return 0;
+    const uint32_t samples = sample + 1;
+    if (done && !std::has_single_bit(samples) && samples != settings.spp) continue;
+    // A batch that was interrupted is in the middle of a sample, and stays as it was shown last.
+    const uint32_t stopped = done ? std::numeric_limits<uint32_t>::max() : batch;
+    for_each_batch([&](uint32_t first, uint32_t count) {
+      if (batch != stopped) resolve(first, count, batch < stopped ? samples : sample);
+      return true;
+    });
+    if (!done) return shown;
+    shown = samples;
+    if (on_samples && samples < settings.spp) on_samples(samples, [&] { return picture(samples); });
+  }
+  return shown;
+}
+
+// As it was resolved.
+FrameResult Renderer::State::picture(uint32_t samples) {
+  FrameResult result;
+  result.samples = samples;
+  std::vector<glm::vec4> pixels(size_t(settings.width) * settings.height);
+  download_all(backend, denoiser ? denoiser->beauty() : beauty, pixels);
+  result.linear = make_color_image(settings, pixels, true);
+  if (denoiser && settings.noisy) {
+    download_all(backend, beauty, pixels);
+    add_noisy(pixels, result.linear);
+  }
+  download_all(backend, display, pixels);
+  result.display = make_color_image(settings, pixels, false);
+  result.display.linear = false;
+  if (!settings.aovs.empty()) {
+    std::vector<glm::uvec4> quads(4 * pixels.size());
+    download_all(backend, aovs, quads);
+    render::add_aovs(settings, quads, result.linear);
+  }
+  return result;
 }
 
 Renderer::Renderer(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
@@ -324,7 +407,7 @@ Renderer::~Renderer() = default;
 
 std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View& view,
                                             const std::function<bool()>& interrupted,
-                                            const std::vector<Moment>& shutter) {
+                                            const std::vector<Moment>& shutter, const OnSamples& on_samples) {
   State& s = *state_;
   const auto start = std::chrono::steady_clock::now();
   const uint32_t segments = s.settings.shutter_segments;
@@ -333,30 +416,18 @@ std::optional<FrameResult> Renderer::render(const scene::Pose& pose, const View&
   s.look_from(&view);
   s.update(pose, shutter);
   s.begin_frame(pose, view, shutter);
-  const uint32_t total = s.total_rays();
-  for (uint32_t first = 0; first < total; first += s.batch_rays) {
-    if (!s.render_batch(first, std::min(s.batch_rays, total - first), interrupted)) {
-      s.backend.finish();
-      return std::nullopt;
-    }
+  uint32_t samples = s.settings.spp;
+  if (s.settings.progressive) {
+    samples = s.render_by_samples(interrupted, on_samples);
+  } else if (!s.render_at_once(interrupted)) {
+    samples = 0;
+  }
+  if (samples == 0) {
+    s.backend.finish();
+    return std::nullopt;
   }
   if (s.denoiser) s.denoiser->filter(s.frame, s.beauty, s.display);
-  FrameResult result;
-  std::vector<glm::vec4> pixels(size_t(s.settings.width) * s.settings.height);
-  download_all(s.backend, s.denoiser ? s.denoiser->beauty() : s.beauty, pixels);
-  result.linear = make_color_image(s.settings, pixels, true);
-  if (s.denoiser && s.settings.noisy) {
-    download_all(s.backend, s.beauty, pixels);
-    add_noisy(pixels, result.linear);
-  }
-  download_all(s.backend, s.display, pixels);
-  result.display = make_color_image(s.settings, pixels, false);
-  result.display.linear = false;
-  if (!s.settings.aovs.empty()) {
-    std::vector<glm::uvec4> quads(4 * pixels.size());
-    download_all(s.backend, s.aovs, quads);
-    add_aovs(s.settings, quads, result.linear);
-  }
+  FrameResult result = s.picture(samples);
   result.passes = s.backend.finish();
   result.wall_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

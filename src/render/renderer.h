@@ -46,8 +46,11 @@ struct Settings {
   float exposure = 0;             // stops
   std::vector<std::string> aovs;  // of: depth normal albedo uv id lod steps
   bool denoise = false;           // of at least 2 spp (render/denoiser.h)
-  bool noisy = false;             // with `denoise`: also noisy.R G B, the beauty before it
-  uint32_t loop_budget = 4000;    // traversal steps of one dispatch; see trace.h
+  // The whole picture sample by sample (16 bytes a pixel more on the device), so that it can be seen, and
+  // stopped, while it gets better. Not with `denoise`.
+  bool progressive = false;
+  bool noisy = false;           // with `denoise`: also noisy.R G B, the beauty before it
+  uint32_t loop_budget = 4000;  // traversal steps of one dispatch; see trace.h
   // Of the texels of mapped charts, every frame, before the hierarchy is built: they go where the pose
   // stretches the surface. Other charts stay as they are.
   uint32_t relaxation_sweeps = 0;
@@ -104,11 +107,15 @@ struct Streaming {
 };
 
 struct FrameResult {
+  uint32_t samples = 0;  // that every pixel has got at least; fewer than asked for where it was interrupted
   image::Image linear;   // R G B A and the AOVs, under their EXR channel names
   image::Image display;  // R G B after exposure, view transform and sRGB encoding; the sky behind everything
   std::vector<PassRecord> passes;
   double wall_ms = 0;
 };
+
+// Told that every pixel has so many samples, a power of 2 and not all; `picture` makes one of these.
+using OnSamples = std::function<void(uint32_t samples, const std::function<FrameResult()>& picture)>;
 
 // Sees every pass as it runs; parity/ and tests hook in here.
 class Renderer {
@@ -121,12 +128,14 @@ class Renderer {
            const geometry_image::Atlas& atlas, const Settings& settings);
   ~Renderer();
 
-  // One frame. `interrupted` is asked between batches; where it says yes, nothing is returned. `shutter`:
+  // One frame. `interrupted` is asked between dispatches; where it says yes, nothing is returned, or with
+  // Settings::progressive what there is, once every pixel has a sample. `shutter`:
   // with motion blur, the moments at the ends of its segments, from the opening to the closing; lights and
   // tangents are those of `pose`, in between. Throws Error(usage) where there is another number of them.
   std::optional<FrameResult> render(const scene::Pose& pose, const View& view,
                                     const std::function<bool()>& interrupted = {},
-                                    const std::vector<Moment>& shutter = {});
+                                    const std::vector<Moment>& shutter = {},
+                                    const OnSamples& on_samples = {});
 
   std::vector<PassRecord> setup_passes() const;  // the records of `links`
   Traversal traversal() const;                   // what `automatic` became

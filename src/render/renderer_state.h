@@ -45,7 +45,10 @@ struct Renderer::State {
   uint32_t loaded_rays = 0;
   bool loaded_together = false;  // see TraceQuery::common_origin
   Buffer cones;
-  Buffer contributions, radiance, paths, branches, going_on, beauty, display, aovs;
+  std::vector<Buffer> radiances;  // sums of samples: of one batch after the other, or of each
+  uint32_t batch = 0;
+  layout::FrameRecord frame_record{};
+  Buffer contributions, paths, branches, going_on, beauty, display, aovs;
   uint32_t light_count = 0, sky_lights = 0;
   uint32_t batch_rays = 0;
 
@@ -128,7 +131,15 @@ struct Renderer::State {
   bool trace(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
   bool trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query, const Interrupted& interrupted);
   void run_camera(const layout::RayPush& push);
-  bool render_batch(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
+  const Buffer& radiance() const { return radiances[radiances.size() > 1 ? batch : 0]; }
+  bool add_aovs(uint32_t first_ray, uint32_t count, const Interrupted& interrupted);
+  bool add_sample(uint32_t first_ray, uint32_t count, uint32_t sample, const Interrupted& interrupted);
+  void resolve(uint32_t first_ray, uint32_t count, uint32_t samples);
+  template <class Body>
+  bool for_each_batch(const Body& body);
+  bool render_at_once(const Interrupted& interrupted);
+  uint32_t render_by_samples(const Interrupted& interrupted, const OnSamples& on_samples);
+  FrameResult picture(uint32_t samples);
 
   // integrators.cpp: one sample of a batch whose rays have found what they hit. False: interrupted.
   bool integrate(const layout::RayPush& rays, const Interrupted& interrupted);

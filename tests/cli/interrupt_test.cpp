@@ -49,6 +49,35 @@ TEST_F(Interrupt, QuietSaysNothing) {
   EXPECT_EQ(interrupt(SIGINT, {"-q"}).err, "");
 }
 
+// With --progressive there is a picture as soon as every pixel has a sample, and it gets better.
+TEST_F(Interrupt, KeepsTheSamplesThatAPictureHas) {
+  std::string first;
+  ProcessOptions options;
+  options.signal = SIGINT;
+  options.signal_when = [&](const Result&) {
+    if (!std::filesystem::exists(place("x.exr"))) return false;
+    const auto spp = image::read(place("x.exr")).metadata.at("lodestone:spp");
+    if (first.empty()) first = spp;
+    return std::stoul(spp) >= 64 && spp != first;
+  };
+  const Result result = run(tiny_render(place("x.exr"), {"--spp", "65536", "--progressive"}), options);
+  EXPECT_EQ(result.code, 130);
+  EXPECT_NE(result.err.find("of 65536 samples"), std::string::npos) << result.err;
+  const image::Image picture = image::read(place("x.exr"));
+  const unsigned long spp = std::stoul(picture.metadata.at("lodestone:spp"));
+  EXPECT_GE(spp, 64u);
+  EXPECT_LT(spp, 65536u);
+  // Near the mean that 4096 samples give: no batch is in the middle of a sample.
+  ASSERT_EQ(run(tiny_render(place("y.exr"), {"--spp", "4096"})).code, 0);
+  const image::Image expected = image::read(place("y.exr"));
+  for (const char* channel : {"R", "G", "B"}) {
+    double found = 0, wanted = 0;
+    for (const float value : picture.find(channel)->values) found += value;
+    for (const float value : expected.find(channel)->values) wanted += value;
+    EXPECT_NEAR(found, wanted, 0.02 * wanted) << channel;
+  }
+}
+
 TEST_F(Interrupt, StopsAFrameThatIsInProgress) {
   ProcessOptions options;
   options.signal = SIGINT;

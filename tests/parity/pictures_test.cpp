@@ -249,6 +249,58 @@ TEST_P(Pictures, RefuseACameraWithoutSizeAndVerticesOutOfRange) {
   EXPECT_THROW(render(morphed), Error);
 }
 
+// Of several batches, some of the pictures on the way, and the last: the bits of all samples at once.
+TEST(ProgressivePictures, EndAsThoseMadeAtOnce) {
+  for (const std::string& name : {std::string("cpu"), std::string("llvmpipe")}) {
+    const auto backend = open(name);
+    const ReadyScene ready("builtin:tiny");
+    render::Settings settings;
+    settings.width = 600;
+    settings.height = 500;
+    settings.spp = 6;
+    settings.aovs = {"depth"};
+    const scene::Pose pose = ready.pose(0);
+    const render::View view =
+        render::find_view(ready.scene, pose, "", scene::pose_bounds(ready.scene, pose), 600, 500);
+    const auto made = [&](uint32_t spp) {
+      settings.spp = spp;
+      settings.progressive = false;
+      return render::Renderer(*backend, ready.scene, ready.assembly, ready.atlas, settings)
+          .render(pose, view)
+          ->linear;
+    };
+    const image::Image at_once = made(6);
+    settings.spp = 6;
+    settings.progressive = true;
+    render::Renderer renderer(*backend, ready.scene, ready.assembly, ready.atlas, settings);
+    std::vector<uint32_t> seen;
+    std::vector<image::Image> pictures;
+    const auto result = renderer.render(pose, view, {}, {}, [&](uint32_t samples, const auto& picture) {
+      seen.push_back(samples);
+      pictures.push_back(picture().linear);
+    });
+    EXPECT_EQ(seen, (std::vector<uint32_t>{1, 2, 4}));
+    EXPECT_EQ(result->samples, 6u);
+    for (const char* channel : {"R", "G", "B", "depth.Z"}) {
+      EXPECT_EQ(result->linear.find(channel)->values, at_once.find(channel)->values) << channel;
+      EXPECT_NE(pictures[0].find("R")->values, pictures[2].find("R")->values);
+    }
+    // Stopped in the second of its two batches: what is there is whole.
+    uint32_t asked = 0;
+    render::Renderer stopped(*backend, ready.scene, ready.assembly, ready.atlas, settings);
+    const auto rest = stopped.render(
+        pose, view, [&] { return seen.size() > 4 && ++asked > 5; }, {},
+        [&](uint32_t samples, const auto&) { seen.push_back(samples); });
+    ASSERT_TRUE(rest);
+    EXPECT_EQ(rest->samples, 2u);
+    for (const float value : rest->linear.find("A")->values) ASSERT_TRUE(value >= 0 && value <= 1);
+    double found = 0, wanted = 0;
+    for (const float value : rest->linear.find("G")->values) found += value;
+    for (const float value : at_once.find("G")->values) wanted += value;
+    EXPECT_NEAR(found, wanted, 0.01 * wanted);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, Pictures,
                          testing::Combine(testing::ValuesIn(device_names()),
                                           testing::Values(AtlasKind::exact, AtlasKind::charts)),
