@@ -117,6 +117,9 @@ std::string weights_text(const std::map<std::string, float>& weights) {
   return text;
 }
 
+// Of a scene that goes through the device, from how many on it takes very long.
+constexpr uint32_t many_portions = 500;
+
 // One run of `lodestone render`.
 class RenderRun {
  public:
@@ -168,6 +171,13 @@ RenderRun::RenderRun(const RenderOptions& options)
   measured_.settings.traversal = to_string(renderer_->traversal());
   measured_.setup = to_dispatches(renderer_->setup_passes(), device_.origin_ms);
   measured_.precompute.push_back({"links", start, now_ms() - start});
+  if (const auto streaming = renderer_->streaming(); streaming && streaming->portions > many_portions) {
+    log::warn(
+        fmt::format("--device-memory leaves so little for the scene that it comes in {} portions, each for "
+                    "every kind of ray: "
+                    "more memory, or a smaller picture, is much faster",
+                    streaming->portions));
+  }
   if (options_.picture.denoise) log::note("denoise: " + render::denoise_description());
   log::note(fmt::format("{}: {} traversal", device_.backend->info().name, to_string(renderer_->traversal())));
 }

@@ -193,8 +193,7 @@ void Portions::update(const PosedVertices& pose, const std::vector<PosedVertices
 
 layout::PortionPush Portions::push_of(uint32_t portion, uint32_t count, bool restarted) const {
   const scene::Bounds& box = bounds_[portion];
-  const uint32_t images = settings_.shutter_segments + 1;
-  return {count, restarted ? 1u : 0u, 0, images, box.lo, extent_, box.hi};
+  return {count, restarted ? 1u : 0u, 0, 0, box.lo, extent_, box.hi};
 }
 
 void Portions::enter(const RayBuffers& rays, const layout::PortionPush& push, const TraceQuery& query,

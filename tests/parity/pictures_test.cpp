@@ -302,7 +302,7 @@ TEST(ProgressivePictures, EndAsThoseMadeAtOnce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Pictures,
-                         testing::Combine(testing::ValuesIn(device_names()),
+                         testing::Combine(testing::ValuesIn(judged_device_names()),
                                           testing::Values(AtlasKind::exact, AtlasKind::charts)),
                          [](const auto& each) {
                            const bool exact = std::get<1>(each.param) == AtlasKind::exact;
