@@ -39,7 +39,8 @@ class Aov : public SurfaceKernel<Probe, source_count> {
         second = select(this->active(), as_bits(surface.albedo, 0u), second);
         uvec1 triangle = point.source[0].triangle;
         if ((this->placing & placing_found) != 0)
-          triangle = select(this->active(), this->load(this->positions, point.source[0].vertex[0]).w, triangle);
+          triangle =
+              select(this->active(), this->load(this->positions, point.source[0].vertex[0]).w, triangle);
         third = select(this->active(),
                        uvec4(floatBitsToUint(surface.texcoord.x), floatBitsToUint(surface.texcoord.y),
                              part.mesh, part.first_mesh_triangle + (triangle - part.first_triangle)),
