@@ -31,8 +31,8 @@ struct TexelRun {
 };
 
 struct Portion {
-  scene::Assembly
-      assembly;  // of one object, without placements and parts; weights and matrices are the whole's
+  // Of one object, without placements and parts; weights and matrices are the whole's.
+  scene::Assembly assembly;
   Atlas atlas;
   std::vector<uint32_t> triangles;  // the numbers that they have in the whole
   std::vector<TexelRun> runs;       // ascending, in both
@@ -45,10 +45,10 @@ std::vector<std::vector<ChartPiece>> plan_portions(const Atlas& atlas, uint64_t 
 
 class PortionMaker {
  public:
-  // Both must outlive it. `name` of the scene, for messages; `positions`: of all vertices in some pose, by
-  // which charts are put in order.
+  // Both must outlive it. `name` of the scene, for messages.
   PortionMaker(const scene::Assembly& assembly, const Atlas& atlas, std::string name);
 
+  // `positions`: of all vertices in some pose, by which charts are put in order. Not from several threads.
   Portion make(std::span<const ChartPiece> pieces, const std::vector<glm::vec3>& positions);
 
  private:

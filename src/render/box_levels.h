@@ -20,6 +20,11 @@ inline layout::BoxGrid make_grid(const scene::Bounds& box) {
   return grid;
 }
 
+// The largest absolute coordinate of a box.
+inline float extent_of(const scene::Bounds& box) {
+  return std::max(layout::largest_abs(box.lo), layout::largest_abs(box.hi));
+}
+
 // Blocks of slots write four records each, also those past the last slot.
 inline uint64_t box_records(const HierarchyLevels& levels) {
   const uint32_t depth = levels.depth();

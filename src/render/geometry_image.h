@@ -67,7 +67,6 @@ class GeometryImage {
   SurfaceBuffers buffers() const;
   BufferId texel_map() const;  // of the pose
   const Buffer& geometry() const { return geometry_; }
-  const SceneTables& tables() const { return tables_; }
   const std::optional<Detail>& detail() const { return detail_; }
   Tracing& tracing() { return tracing_; }
   const Tracing& tracing() const { return tracing_; }

@@ -105,7 +105,7 @@ void Instances::build(const std::vector<glm::mat4>& matrices, const std::vector<
   }
   backend_.upload(records_.id(), std::as_bytes(std::span(records)));
   // Bounds are rounded outwards a little more than this box.
-  extent_ = std::max(layout::largest_abs(world.lo), layout::largest_abs(world.hi)) * (1 + 0x1p-13f);
+  extent_ = extent_of(world) * (1 + 0x1p-13f);
   world.lo -= extent_ * 0x1p-13f;
   world.hi += extent_ * 0x1p-13f;
   grid_ = make_grid(world);

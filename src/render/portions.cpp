@@ -6,6 +6,7 @@
 
 #include "lodestone/base/error.h"
 #include "lodestone/base/parallel.h"
+#include "lodestone/render/box_levels.h"
 #include "lodestone/render/counting_backend.h"
 #include "lodestone/render/passes.h"
 
@@ -34,23 +35,12 @@ Settings settings_of_portions(Settings settings) {
   return settings;
 }
 
-uint32_t sources_of(const geometry_image::Atlas& atlas) {
-  return std::any_of(atlas.charts.begin(), atlas.charts.end(),
-                     [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_mapped; })
-             ? 3
-             : 1;
-}
-
 scene::Bounds intersection(const scene::Bounds& a, const scene::Bounds& b) {
   scene::Bounds both;
   both.lo = glm::max(a.lo, b.lo);
   both.hi = glm::max(both.lo, glm::min(a.hi, b.hi));
   both.empty = a.empty || b.empty;
   return both;
-}
-
-float extent_of(const scene::Bounds& box) {
-  return std::max(layout::largest_abs(box.lo), layout::largest_abs(box.hi));
 }
 
 }  // namespace

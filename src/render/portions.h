@@ -6,8 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <list>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "lodestone/geometry_image/portions.h"

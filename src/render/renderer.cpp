@@ -185,9 +185,7 @@ bool Renderer::State::trace(const RayBuffers& rays, uint32_t count, TraceQuery q
   if (instances)
     return instances->trace(image->tracing(), image->geometry(), rays, count, query, interrupted);
   if (image) return image->trace(rays, count, query, interrupted);
-  // Of other rays, and of shadows that nothing is cut out of, nobody asks what they have hit.
-  const bool kept = &rays == &primary || (&rays == &shadow && materials.has_masks);
-  return portions->trace(rays, count, query, interrupted, kept ? found_by(rays) : nullptr);
+  return portions->trace(rays, count, query, interrupted, found_by(rays));
 }
 
 // By rays through a grid of points of the picture.

@@ -109,10 +109,11 @@ struct Renderer::State {
   // What is kept ray by ray is as it was when it was hit.
   uint32_t kept() const { return portions ? layout::placing_found : 0; }
   uint32_t seen_segments() const { return portions ? 0 : settings.shutter_segments; }
-  // Null: the surface is there.
+  // Null: the surface is there, or nobody asks what these rays hit (where nothing is cut out, shadow rays).
   const FoundSurface* found_by(const RayBuffers& rays) const {
     if (!portions) return nullptr;
-    return &rays == &shadow ? &portions->found_by_shadows() : &portions->found();
+    if (&rays == &primary) return &portions->found();
+    return &rays == &shadow && materials.has_masks ? &portions->found_by_shadows() : nullptr;
   }
 
   // Of rays that have been scattered, with levels of detail.

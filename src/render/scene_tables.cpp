@@ -69,8 +69,12 @@ SceneTables::SceneTables(Backend& backend, const scene::Assembly& assembly,
   if (slots.size() % 2 != 0) slots.emplace_back(layout::empty_slot, 0);
   leaf_map = make_buffer(backend, "leaf_map", 4, slots);
   charts = make_buffer(backend, "charts", 16, atlas.charts);
+  sources = sources_of(atlas);
+}
+
+uint32_t sources_of(const geometry_image::Atlas& atlas) {
   const auto is_mapped = [](const layout::ChartRecord& chart) { return chart.kind == layout::chart_mapped; };
-  if (std::any_of(atlas.charts.begin(), atlas.charts.end(), is_mapped)) sources = 3;
+  return std::any_of(atlas.charts.begin(), atlas.charts.end(), is_mapped) ? 3 : 1;
 }
 
 }  // namespace lodestone::render

@@ -20,6 +20,9 @@ struct SceneTables {
   uint32_t sources = 1;  // layout/surface.h
 };
 
+// Of the atlas: `sources` of layout/surface.h, without levels of detail.
+uint32_t sources_of(const geometry_image::Atlas& atlas);
+
 // Buffers of `name` filled with an array; arrays may be empty.
 template <class T>
 Buffer make_buffer(Backend& backend, const char* name, uint32_t element_bytes, const std::vector<T>& items) {

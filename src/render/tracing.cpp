@@ -138,7 +138,7 @@ void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& bo
     record.lo = boxes[i].lo;
     record.hi = boxes[i].hi;
     record.step = make_grid(boxes[i]).step;
-    record.extent = std::max(layout::largest_abs(whole[i].lo), layout::largest_abs(whole[i].hi));
+    record.extent = extent_of(whole[i]);
   }
   backend_.upload(objects_.id(), std::as_bytes(std::span(records_)));
   for (size_t i = first; i < trees_.size(); ++i) {
