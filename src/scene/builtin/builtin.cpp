@@ -16,7 +16,8 @@ struct Entry {
   Scene (*make)();
 };
 
-constexpr std::array<Entry, 6> entries = {{{"head", builtin::make_head},
+constexpr std::array<Entry, 7> entries = {{{"head", builtin::make_head},
+                                           {"room", builtin::make_room},
                                            {"shoal", builtin::make_shoal},
                                            {"spheres", builtin::make_spheres},
                                            {"teapots", builtin::make_teapots},

@@ -8,6 +8,8 @@ namespace lodestone::scene::builtin {
 
 // A cartoon bust with 18 blendshapes, about 65,000 vertices; clip `Expressions`, camera `Portrait`.
 Scene make_head();
+// A closed room lit by surfaces that shine, one of which swings in clip `Swing`, and a candle; camera `Door`.
+Scene make_room();
 // Ten thousand fish of three meshes that circle above the sea floor in clip `Circle`, cameras `ball` and
 // `among`; 7.4 million triangles, most of them instances.
 Scene make_shoal();

@@ -15,7 +15,8 @@ using scene::Pose;
 using scene::Scene;
 
 class LoopingClip : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, LoopingClip, testing::Values("head", "spheres", "teapots", "terrain"),
+INSTANTIATE_TEST_SUITE_P(Scenes, LoopingClip,
+                         testing::Values("head", "room", "spheres", "teapots", "terrain"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(LoopingClip, EndsAsItBegins) {
