@@ -61,6 +61,7 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/shade", shade},
       {"geometry_image/ambient", ambient},
       {"geometry_image/branch", branch},
+      {"geometry_image/draw_emitters", draw_emitters},
       {"geometry_image/path", path},
       {"geometry_image/accumulate", accumulate},
       {"geometry_image/aov", aov},

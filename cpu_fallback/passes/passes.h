@@ -39,6 +39,7 @@ void mask(const CpuDispatch& dispatch);
 void shade(const CpuDispatch& dispatch);
 void ambient(const CpuDispatch& dispatch);
 void branch(const CpuDispatch& dispatch);
+void draw_emitters(const CpuDispatch& dispatch);
 void path(const CpuDispatch& dispatch);
 void accumulate(const CpuDispatch& dispatch);
 void aov(const CpuDispatch& dispatch);

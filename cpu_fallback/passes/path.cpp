@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "lodestone/layout/path.h"
 #include "lodestone/cpu_fallback/passes/passes.h"
+#include "lodestone/layout/emitters.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "lodestone/cpu_fallback/passes/path.cpp"
@@ -34,8 +34,8 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
     contribution_ = vec3(0.0f, 0.0f, 0.0f);
     shadow_ = next_ = no_ray();
     if (const Where here(*this, alive && hit.w == no_index); here.any()) {
-      const vec1 density = this->environment_pdf(direction) * float(push_.sky_lights) / float(push_.lights);
-      const vec3 sky = path_.throughput * this->environment_radiance(direction) * sky_weight(path_, density);
+      const vec1 density = this->environment_pdf(direction) * push_.sky_chance;
+      const vec3 sky = path_.throughput * this->environment_radiance(direction) * met_weight(path_, density);
       added_ = select(this->active(), vec4(sky.x, sky.y, sky.z, 0.0f), added_);
     }
     if (const Where here(*this, alive && hit.w != no_index); here.any()) scatter(hit, direction);
@@ -62,11 +62,16 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
       const vec3 passed = path_.throughput * transmittance(surface, uintBitsToFloat(hit.x));
       path_.throughput = select(this->active(), passed, path_.throughput);
     }
-    const vec3 emitted = path_.throughput * emitted_radiance(surface);
+    vec3 emitted = path_.throughput * emitted_radiance(surface);
+    if (emitting_ != 0) {
+      const vec1 met = uintBitsToFloat(hit.x), cosine = abs1(dot3(surface.geometric, direction));
+      const vec1 density = seen_density(this->drawn_density(point), met * met, cosine);
+      emitted = emitted * met_weight(path_, density * push_.emitter_chance);
+    }
     added_ = select(this->active(), vec4(emitted.x, emitted.y, emitted.z, 1.0f), added_);
     const auto draw = [&](uint use) HWY_ATTR { return this->draw(push_, vertex_pair(push_.vertex, use)); };
     const DrawnLight light = draw_light(surface, draw(of_light).x, draw(of_light_direction));
-    const vec3 direct = direct_light(path_, bsdf, light);
+    const vec3 direct = direct_light(path_, bsdf, light, push_.vertex >= push_.last_vertex);
     const bvec1 lit = this->active() && max_component(direct) > 0.0f;
     const vec1 side = select(dot3(light.direction, surface.geometric) < 0.0f, -1.0f, 1.0f);
     shadow_ = select(lit, leaving_ray(surface, light.direction, side, light.distance), shadow_);
@@ -92,25 +97,49 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
         point, surface, scattered_spread(drawn.density, frame.tolerance_spread, frame.steepest)));
   }
 
+  HWY_ATTR DrawnPoint load_drawn() {
+    uvec4 coat(0u, 0u, 0u, 0u);
+    if (is_layered) coat = this->load_own(drawn_points_, drawn_quads, 3);
+    return stored_point(this->load_own(drawn_points_, drawn_quads),
+                        this->load_own(drawn_points_, drawn_quads, 1),
+                        this->load_own(drawn_points_, drawn_quads, 2), coat);
+  }
+
+  HWY_ATTR uvec1 drawn_light(vec1 choice) {
+    const uvec1 number(choice * drawn_numbers), last(push_.lights - 1);
+    uvec1 light = 0u;
+    for (uint step = push_.light_step; step != 0; step >>= 1) {
+      uvec1 place = light + step;
+      place = select(place < last, place, last);
+      LaneWords first(place);
+      for (uint32_t& word : first.at) word = lights_[word].first_number;
+      light = select(number >= first.lanes(), place, light);
+    }
+    return light;
+  }
+
   HWY_ATTR DrawnLight draw_light(const Surface& surface, vec1 choice, vec2 xi) {
-    const auto count = float(push_.lights);
     DrawnLight drawn{vec3(0.0f, 0.0f, 0.0f), 0.0f, vec3(0.0f, 0.0f, 0.0f), 0.0f};
-    const uvec1 picked = uvec1(choice * count), last = push_.lights - 1;
-    this->for_each_value(select(picked < last, picked, last), [&](uint32_t index) HWY_ATTR {
+    this->for_each_value(drawn_light(choice), [&](uint32_t index) HWY_ATTR {
       const LightRecord& light = lights_[index];
+      const float chance = float(light.numbers) / drawn_numbers;
+      if (emitting_ != 0 && light.kind == light_emitters) {
+        drawn = select(this->active(), emitted_light(load_drawn(), surface, chance), drawn);
+        return;
+      }
       DrawnLight here;
       if (light.kind == light_sky) {
         const auto chosen = this->sample_environment(xi);
         here.direction = chosen.direction;
         here.distance = 1e30f;
-        here.density = chosen.pdf / count;
+        here.density = chosen.pdf * chance;
         here.radiance = this->environment_radiance(chosen.direction) / here.density;
       } else {
         const Arrival arrival = arriving_light(light, surface.position, surface.normal);
         here.direction = arrival.direction;
         here.distance = arrival.distance;
         here.density = 0.0f;
-        here.radiance = vec3(light.color) * (arrival.falloff * count);
+        here.radiance = vec3(light.color) * (arrival.falloff / chance);
       }
       drawn = select(this->active(), here, drawn);
     });
@@ -122,6 +151,8 @@ class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, i
   Quads contributions_ = this->quads(21), shadow_rays_ = this->quads(22), radiance_ = this->quads(23),
         paths_ = this->quads(24);
   Words going_on_ = this->words(25);
+  Quads drawn_points_ = this->quads(28);
+  uint32_t emitting_ = this->constant(3);
   PathPush push_ = this->template push<PathPush>();
 
   // Of the invocations that run.

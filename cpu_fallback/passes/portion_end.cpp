@@ -27,7 +27,7 @@ class PortionEnd : public Kernel<Probe> {
       return;
     }
     const uvec4 best = this->load(hits_, index);
-    const uint32_t primitive = whole_primitive(met.w);
+    const uint32_t primitive = 2 * whole_texel(met.w >> 1) + (met.w & 1);
     const float t = layout::uintBitsToFloat(met.x), nearest = layout::uintBitsToFloat(best.x);
     if (!(t < nearest || (t == nearest && primitive < best.w))) return;
     this->store(hits_, index, uvec4(met.x, met.y, met.z, primitive));
@@ -40,8 +40,7 @@ class PortionEnd : public Kernel<Probe> {
   }
 
  private:
-  uint32_t whole_primitive(uint32_t primitive) {
-    const uint32_t texel = primitive >> 1;
+  uint32_t whole_texel(uint32_t texel) {
     uint32_t first = 0, end = push_.runs;
     while (first + 1 < end) {
       const uint32_t middle = (first + end) >> 1;
@@ -49,7 +48,7 @@ class PortionEnd : public Kernel<Probe> {
     }
     const uint32_t local = this->load(runs_, 2 * uint64_t(first)),
                    whole = this->load(runs_, 2 * uint64_t(first) + 1);
-    return 2 * (whole + (texel - local)) + (primitive & 1);
+    return whole + (texel - local);
   }
 
   void keep_vertex(uint32_t vertex, uint32_t place, uint32_t number) {
@@ -104,7 +103,9 @@ class PortionEnd : public Kernel<Probe> {
     if (chart.kind != layout::chart_mapped) keep_triangle(triangle, place);
     const uint32_t first_triangle = chart.kind == layout::chart_grid ? place - upper : place;
     this->store(found_charts_, 2 * uint64_t(index), uvec4(found_texels * index, 2, 2, chart.kind));
-    this->store(found_charts_, 2 * uint64_t(index) + 1, uvec4(first_triangle, 0, 0, 0));
+    uint32_t emitter = chart.first_emitter;
+    if (emitter != 0) emitter += whole_texel(texel) - whole_texel(chart.first_texel);
+    this->store(found_charts_, 2 * uint64_t(index) + 1, uvec4(first_triangle, 0, 0, emitter));
   }
 
   Quads local_hits_ = this->quads(0);

@@ -71,7 +71,7 @@ class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_lay
   Quads rays_ = this->quads(19);
   Structs<LightRecord> lights_ = this->template structs<LightRecord>(20);
   Quads contributions_ = this->quads(21), shadow_rays_ = this->quads(22), radiance_ = this->quads(23);
-  Quads paths_ = this->quads(27);
+  Quads paths_ = this->quads(26);
   RayPush push_ = this->template push<RayPush>();
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The buffers that layout/environment.h reads, in three slots from `slot` on, that header itself and what
+// The buffers that layout/environment.h reads, in two slots from `slot` on, that header itself and what
 // stands on it. Included once a SIMD target.
 
 #if defined(LODESTONE_ENVIRONMENT_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -22,9 +22,8 @@ class EnvironmentKernel : public Base {
 
  protected:
   using Base::frames;
-  Structs<EnvironmentRecord> environments = this->template structs<EnvironmentRecord>(slot);
-  Quads environment_quads = this->quads(slot + 1);
-  Words environment_cells = this->words(slot + 2);
+  Quads environment_quads = this->quads(slot);
+  Words environment_cells = this->words(slot + 1);
   uint32_t environment_map = this->constant(2);
 
 #define LOAD4(result, buffer, i) result = this->load(buffer, i)

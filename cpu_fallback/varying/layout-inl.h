@@ -16,6 +16,7 @@
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/denoise.h"
 #include "lodestone/layout/detail.h"
+#include "lodestone/layout/emitters.h"
 #include "lodestone/layout/motion.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray_state.h"
@@ -33,6 +34,7 @@ using namespace layout;  // behind what is declared here
 #undef LODESTONE_LAYOUT_CAMERA_H
 #undef LODESTONE_LAYOUT_DENOISE_H
 #undef LODESTONE_LAYOUT_DETAIL_H
+#undef LODESTONE_LAYOUT_EMITTERS_H
 #undef LODESTONE_LAYOUT_MOTION_H
 #undef LODESTONE_LAYOUT_PATH_H
 #undef LODESTONE_LAYOUT_RAY_H
@@ -48,6 +50,7 @@ using namespace layout;  // behind what is declared here
 #include "lodestone/layout/camera.h"
 #include "lodestone/layout/denoise.h"
 #include "lodestone/layout/detail.h"
+#include "lodestone/layout/emitters.h"
 #include "lodestone/layout/motion.h"
 #include "lodestone/layout/path.h"
 #include "lodestone/layout/ray.h"

@@ -70,7 +70,7 @@ class SurfaceKernel : public VaryingKernel<Probe> {
   Quads hits = this->quads(0), geometry = this->quads(1), normal_map = this->quads(2),
         texel_map = this->quads(3), triangles = this->quads(4), positions = this->quads(5),
         normals = this->quads(6), tangents = this->quads(7), texcoords = this->quads(8);
-  Words images = this->words(9), srgb_table = this->words(10);
+  Words images = this->words(9), emitter_numbers = this->words(10);
   Quads charts = this->quads(11);
   Structs<PartRecord> parts = this->template structs<PartRecord>(12);
   Structs<MaterialRecord> materials = this->template structs<MaterialRecord>(13);

@@ -44,8 +44,7 @@ layout(constant_id = 4) const uint sources = 1u;
 layout(constant_id = 5) const uint segments = 0u;
 layout(constant_id = 6) const uint keep = 1u;  // 0: only what was hit is asked
 
-uint whole_primitive(uint primitive) {
-  uint texel = primitive >> 1u;
+uint whole_texel(uint texel) {
   uint first = 0u;  // the last run that begins at the texel or before it
   uint end = push.runs;
   while (first + 1u < end) {
@@ -62,7 +61,7 @@ uint whole_primitive(uint primitive) {
   uint whole;
   LOAD1(local, runs, 2u * first);
   LOAD1(whole, runs, 2u * first + 1u);
-  return 2u * (whole + (texel - local)) + (primitive & 1u);
+  return whole + (texel - local);
 }
 
 void keep_vertex(uint vertex, uint place, uint number) {
@@ -140,7 +139,9 @@ void keep_surface(uint index, uint primitive, Moment moment) {
   // On a grid the half says which triangle it is, and here that is always the first.
   uint first_triangle = chart.kind == chart_grid ? place - upper : place;
   STORE4(found_charts, 2u * index, uvec4(found_texels * index, 2u, 2u, chart.kind));
-  STORE4(found_charts, 2u * index + 1u, uvec4(first_triangle, 0u, 0u, 0u));
+  uint emitter = chart.first_emitter;  // where that is not 0, of the chart's first texel
+  if (emitter != 0u) emitter += whole_texel(texel) - whole_texel(chart.first_texel);
+  STORE4(found_charts, 2u * index + 1u, uvec4(first_triangle, 0u, 0u, emitter));
 }
 
 void main() {
@@ -164,7 +165,7 @@ void main() {
     } else {
       uvec4 best;
       LOAD4(best, hits, index);
-      uint primitive = whole_primitive(met.w);
+      uint primitive = 2u * whole_texel(met.w >> 1u) + (met.w & 1u);
       float t = uintBitsToFloat(met.x);
       float nearest = uintBitsToFloat(best.x);
       if (t < nearest || (t == nearest && primitive < best.w)) {

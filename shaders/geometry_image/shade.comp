@@ -11,11 +11,10 @@ STRUCTS(20, readonly, LightRecord, lights);
 QUADS(21, writeonly, contributions);
 QUADS(22, writeonly, shadow_rays);
 QUADS(23, restrict, radiance);
-STRUCTS(24, readonly, EnvironmentRecord, environments);
-QUADS(25, readonly, environment_quads);
-WORDS(26, readonly, environment_cells);
-QUADS(27, readonly, paths);  // a Branch each, where `recursion` says so
-COUNTERS(28)
+QUADS(24, readonly, environment_quads);
+WORDS(25, readonly, environment_cells);
+QUADS(26, readonly, paths);  // a Branch each, where `recursion` says so
+COUNTERS(27)
 PUSH(RayPush, push);
 layout(constant_id = 4) const uint environment_map = 0u;
 layout(constant_id = 5) const uint recursion = recursion_none;

@@ -16,7 +16,7 @@ QUADS(6, readonly, normals);
 QUADS(7, readonly, tangents);
 QUADS(8, readonly, texcoords);
 WORDS(9, readonly, images);
-WORDS(10, readonly, srgb_table);
+WORDS(10, readonly, emitter_numbers);
 QUADS(11, readonly, charts);
 STRUCTS(12, readonly, PartRecord, parts);
 STRUCTS(13, readonly, MaterialRecord, materials);

@@ -36,8 +36,9 @@ struct ChartRecord {
   uvec1 kind;
   uvec1 first_triangle;  // in the triangle buffer
   uvec1 first_slot;
-  uvec1 slot_count;  // a power of 2
-  uvec1 pad;
+  uvec1 slot_count;     // a power of 2
+  uvec1 first_emitter;  // 1 + the number of its first texel among emitters (layout/emitters.h); 0: it does
+                        // not shine
 };
 // There can be a chart a triangle, so that charts too are an array of quads, two each.
 FN ChartRecord chart_record(uvec4 a, uvec4 b) {
@@ -49,7 +50,7 @@ FN ChartRecord chart_record(uvec4 a, uvec4 b) {
   chart.first_triangle = b.x;
   chart.first_slot = b.y;
   chart.slot_count = b.z;
-  chart.pad = b.w;
+  chart.first_emitter = b.w;
   return chart;
 }
 

@@ -3,12 +3,11 @@
 // Humphreys 2023, "Physically Based Rendering", 4th edition, 12.5). Included by kernels behind the buffers it
 // names, and by the CPU fallback inside a class whose members have those names (environment_kernel-inl.h):
 //
-//   environments        one EnvironmentRecord
 //   environment_quads   height + 2 rows { first number, polar distance at its upper and its lower border,
 //                       density by number (float bits) }, the last one without a row behind it; then, of a
 //                       map, its texels, row by row { R, G, B (float bits), 0 }
 //   environment_cells   height + 1 times width + 1 words: the first number of each cell of a row
-//   frames              one FrameRecord, for the analytic sky
+//   frames              one FrameRecord, whose `environment` says how large the others are
 //
 // `environment_map`, the same in the whole dispatch, is 0 for the analytic sky, 1 for a map: equirectangular,
 // the upper row around +Y, its columns from -X by -Z, +X and +Z back to -X. So a direction of unit length is
@@ -40,7 +39,7 @@ struct EnvironmentPlace {
 
 // Of a direction of any length; the zero vector counts as +Y.
 FN EnvironmentPlace environment_place(vec3 direction) {
-  EnvironmentRecord environment = environments[0];
+  EnvironmentRecord environment = frames[0].environment;
   vec1 u = environment.turn + atan2_turns(direction.z, direction.x);
   vec1 v = 2.0f * atan2_turns(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y);
   vec1 x = (u - floor(u)) * float(environment.width) - 0.5f;
@@ -58,15 +57,16 @@ FN EnvironmentPlace environment_place(vec3 direction) {
 
 FN vec3 environment_texel(uvec1 column, uvec1 row) {
   uvec4 texel;
-  LOAD4(texel, environment_quads, environments[0].height + 2u + row * environments[0].width + column);
+  LOAD4(texel, environment_quads,
+        frames[0].environment.height + 2u + row * frames[0].environment.width + column);
   return as_vec3(texel);
 }
 
 // From where a ray of this direction goes to: W / (sr m2).
 FN vec3 environment_radiance(vec3 direction) {
   if (environment_map == 0u) return sky_radiance(frames[0], direction);
-  uint width = environments[0].width;
-  uint height = environments[0].height;
+  uint width = frames[0].environment.width;
+  uint height = frames[0].environment.height;
   EnvironmentPlace place = environment_place(direction);
   uvec1 right = select(place.column + 1u < width, place.column + 1u, 0u);
   uvec1 upper = select(place.row < 1u, 0u, place.row - 1u);
@@ -83,7 +83,7 @@ FN vec3 environment_radiance(vec3 direction) {
 // one.
 FN vec1 environment_pdf(vec3 direction) {
   EnvironmentPlace place = environment_place(direction);
-  uvec1 cell = place.row * (environments[0].width + 1u) + place.column;
+  uvec1 cell = place.row * (frames[0].environment.width + 1u) + place.column;
   uvec4 row;
   uvec1 first;
   uvec1 next;
@@ -101,11 +101,11 @@ FN vec1 environment_share(uvec1 number, uvec1 first, uvec1 next) {
 // A direction for `xi` in [0, 1)^2, of which 24 bits count; y chooses the row, and what neighbours in `xi`
 // choose are mostly neighbours.
 FN EnvironmentSample sample_environment(vec2 xi) {
-  EnvironmentRecord environment = environments[0];
+  EnvironmentRecord environment = frames[0].environment;
   uint width = environment.width;
   uint last_row = environment.height;
-  uvec1 number_x = uvec1(xi.x * environment_numbers);
-  uvec1 number_y = uvec1(xi.y * environment_numbers);
+  uvec1 number_x = uvec1(xi.x * drawn_numbers);
+  uvec1 number_y = uvec1(xi.y * drawn_numbers);
   // The last row that begins at or before the number, and the last cell that does.
   uvec1 row = uvec1(0u);
   for (uint step = environment.row_step; step != 0u; step = step >> 1u) {

@@ -8,6 +8,18 @@
 
 LODESTONE_LAYOUT_BEGIN
 
+// The light from all directions that nothing blocks, as layout/environment.h finds and samples it.
+struct EnvironmentRecord {
+  uint width;  // texels; of the analytic sky those of the raster that its density comes from
+  uint height;
+  uint column_step;  // the greatest power of 2 below `width` (0: none): where a binary search begins ...
+  uint row_step;     // ... and that below height + 1
+  float turn;        // the column coordinate u, in [0, 1], of (1, 0, 0)
+  uint pad0;
+  uint pad1;
+  uint pad2;
+};
+
 struct FrameRecord {
   vec3 origin;  // see render::View
   uint perspective;
@@ -31,12 +43,14 @@ struct FrameRecord {
   float tolerance;         // with levels of detail (layout/detail.h): the width of the cone at `origin` ...
   float tolerance_spread;  // ... and its spread
   float steepest;          // the most that any cone may widen a unit of length
+  EnvironmentRecord environment;
 };
 
 CONST uint light_directional = 0u;
 CONST uint light_point = 1u;
 CONST uint light_spot = 2u;
 CONST uint light_sky = 3u;
+CONST uint light_emitters = 4u;  // all surfaces that shine (layout/emitters.h); the last one, of `path` alone
 
 struct LightRecord {
   vec3 position;
@@ -46,9 +60,10 @@ struct LightRecord {
   vec3 color;         // times intensity
   float cone_scale;   // spot: 1 / (cos inner - cos outer) ...
   float cone_offset;  // ... and -cos outer times that
+  // Of the integrator `path`, which draws one light at a time:
+  uint first_number;  // of the numbers that draw it; they ascend with the lights
+  uint numbers;       // how many these are; its chance is this over drawn_numbers
   uint pad0;
-  uint pad1;
-  uint pad2;
 };
 
 struct MaterialRecord {
@@ -88,12 +103,15 @@ struct MaterialRecord {
 
 CONST float highest_ior = 1e6f;  // stands for an infinite one
 
+// The image buffer begins with what each value of an sRGB channel is, linear (float bits).
+CONST uint srgb_levels = 256u;
+
 CONST uint wrap_repeat = 0u;
 CONST uint wrap_clamp = 1u;
 CONST uint wrap_mirror = 2u;
 
 struct TextureRecord {
-  uint first_texel;  // in the image buffer: RGBA8, R lowest
+  uint first_texel;  // in the image buffer, behind the table of `srgb_levels`: RGBA8, R lowest
   uint width;
   uint height;
   uint texcoord;
@@ -116,7 +134,7 @@ struct InstanceRecord {
   uint node;       // of the scene; no_index: none
   float rounding;  // by how much rounding may grow on the way through both matrices, at least 1; negative:
                    // the matrix has no inverse, and the instance is not seen
-  uint pad0;
+  uint emitter_share;  // by how many numbers an emitter is drawn in it (layout/emitters.h)
 };
 
 struct PartRecord {
@@ -126,19 +144,8 @@ struct PartRecord {
   uint first_mesh_triangle;
 };
 
-// The light from all directions that nothing blocks, as layout/environment.h finds and samples it.
-struct EnvironmentRecord {
-  uint width;  // texels; of the analytic sky those of the raster that its density comes from
-  uint height;
-  uint column_step;  // the greatest power of 2 below `width` (0: none): where a binary search begins ...
-  uint row_step;     // ... and that below height + 1
-  float turn;        // the column coordinate u, in [0, 1], of (1, 0, 0)
-  uint pad0;
-  uint pad1;
-  uint pad2;
-};
-
-CONST float environment_numbers = 16777216.0f;  // 2^24, as many as xi has
+// 2^24 numbers, as many as a random number in [0, 1) has, are shared out among what is to be drawn.
+CONST float drawn_numbers = 16777216.0f;
 
 // Rays are numbered in tiles of 8 x 8 pixels, Morton order within a tile, so that neighbours in a subgroup
 // are neighbours in the picture.
@@ -172,8 +179,10 @@ struct PathPush {
   uint vertex;       // 0: where the camera's ray ends
   uint last_vertex;  // from which nothing goes on
   uint lights;
-  uint sky_lights;  // how many of them are the sky: 0 or 1
-  uint first;       // 1: the pass starts a sum, 0: it adds to one
+  uint light_step;       // where a binary search among them begins (EnvironmentRecord)
+  uint first;            // 1: the pass starts a sum, 0: it adds to one
+  float sky_chance;      // of the sky to be drawn ...
+  float emitter_chance;  // ... and of the emitters; 0 where there are none
 };
 
 struct ResolvePush {

@@ -38,19 +38,20 @@ FN vec1 power_heuristic(vec1 own, vec1 other) {
 struct DrawnLight {
   vec3 direction;
   vec1 distance;
-  vec3 radiance;  // over the chance of the light; of a drawn direction over its density too
+  vec3 radiance;  // over the chance that this light is drawn; of a drawn direction over its density too
   vec1 density;   // of the direction, times the chance of the light; 0: the light has one direction
 };
 
-// What it adds to the pixel if nothing is in the way.
-FN vec3 direct_light(IN(Path) path, IN(Bsdf) b, IN(DrawnLight) light) {
+// What it adds to the pixel if nothing is in the way. `last`: no ray goes on that could find it by chance.
+FN vec3 direct_light(IN(Path) path, IN(Bsdf) b, IN(DrawnLight) light, bool last) {
   BsdfValue f = bsdf_value(b, light.direction);
-  vec1 weight = select(light.density > 0.0f, power_heuristic(light.density, f.density), vec1(1.0f));
+  vec1 shared_weight = power_heuristic(light.density, f.density);
+  vec1 weight = select(light.density > 0.0f && !last, shared_weight, vec1(1.0f));
   return flush_lost3(path.throughput * f.value * light.radiance * weight);
 }
 
-// How much of what a path's ray met at the sky counts, which lights drew with `density`.
-FN vec1 sky_weight(IN(Path) path, vec1 density) {
+// How much of the light that a path's ray met counts, whose direction lights were drawn with `density`.
+FN vec1 met_weight(IN(Path) path, vec1 density) {
   return select(path.density > 0.0f, power_heuristic(path.density, density), vec1(1.0f));
 }
 

@@ -68,12 +68,16 @@ CONST uint of_lobe = 0u;            // x: lobe, y: Russian roulette
 CONST uint of_direction = 1u;
 CONST uint of_light = 2u;  // x: which light
 CONST uint of_light_direction = 3u;
+CONST uint pair_emitter = 0x40000000u;  // x: instance, y: triangle; one a vertex
 
 FN uint sky_pair(uint vertex, uint light) {
   return pair_sky + light + (vertex << 20u);
 }
 FN uint vertex_pair(uint vertex, uint use) {
   return pair_vertex + 4u * vertex + use;
+}
+FN uint emitter_pair(uint vertex) {
+  return pair_emitter + vertex;
 }
 
 LODESTONE_LAYOUT_END

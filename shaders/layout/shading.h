@@ -302,12 +302,15 @@ FN LightSample sample_light(IN(LightRecord) light, IN(Surface) s, IN(Traced) tra
   return result;
 }
 
+// In parts of a surface's reach.
+CONST float leaving_offset = 1.9073486e-6f;  // 2^-19
+
 // A ray that leaves the surface on the side of the viewer (side 1) or on the other (-1), from beyond what
 // rounding may have moved it. A position is off by less than 2^-21 of the surface's reach (three products and
 // their sum, each by half an ulp), and so is the t that traversal finds for the triangle that it lies on.
 // `distance`: where it ends, again before what rounding may have moved.
 FN Ray leaving_ray(IN(Surface) s, vec3 direction, vec1 side, vec1 distance) {
-  vec1 offset = s.reach * 1.9073486e-6f;  // 2^-19
+  vec1 offset = s.reach * leaving_offset;
   Ray ray;
   ray.origin = flush_tiny3(s.position + s.geometric * (offset * side));
   ray.tmin = 0.0f;

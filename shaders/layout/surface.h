@@ -32,6 +32,8 @@ struct SurfacePoint {
   Moment moment;                           // at which it was hit; not set where nothing moves
   vec4 to_world[3];                        // rows of the instance's matrix; not set without instances
   vec1 rounding;                           // InstanceRecord::rounding
+  uvec1 emitter_share;                     // InstanceRecord::emitter_share; not set without instances
+  uvec1 emitter;                           // the half that it is of (layout/emitters.h); no_index: of none
 };
 
 FN vec3 placed_direction(IN(SurfacePoint) point, vec3 d) {
@@ -200,8 +202,11 @@ FN SurfacePoint locate(uvec1 primitive, vec1 u, vec1 v, uvec1 instance, IN(Momen
     }
     LOAD4(bits, instances, instance_quads * instance + 6u);
     point.rounding = uintBitsToFloat(bits.z);
+    point.emitter_share = bits.w;
     for (int i = 0; i < 3; ++i) point.corner[i] = placed_point(point, point.corner[i]);
   }
+  uvec1 emitter = 2u * (chart.first_emitter - 1u + (texel - chart.first_texel)) + (primitive & 1u);
+  point.emitter = select(chart.first_emitter == 0u, uvec1(no_index), emitter);
   // On a grid the place in the chart says which triangle it is, else the texel map.
   point.source[0].triangle = chart.first_triangle;
   point.source[0].b1 = u;
@@ -282,9 +287,9 @@ FN vec4 texel_color(uvec1 index, bool decode) {
   uvec1 r;
   uvec1 g;
   uvec1 b;
-  LOAD1(r, srgb_table, rgba & 255u);
-  LOAD1(g, srgb_table, (rgba >> 8u) & 255u);
-  LOAD1(b, srgb_table, (rgba >> 16u) & 255u);
+  LOAD1(r, images, rgba & 255u);
+  LOAD1(g, images, (rgba >> 8u) & 255u);
+  LOAD1(b, images, (rgba >> 16u) & 255u);
   return vec4(uintBitsToFloat(r), uintBitsToFloat(g), uintBitsToFloat(b), vec1(rgba >> 24u) / 255.0f);
 }
 
@@ -441,10 +446,8 @@ FN vec3 corner_normal(IN(SurfacePoint) point, int i) {
   return select(point.collapse[i] == 0.0f, own, mix3(own, other, point.collapse[i]));
 }
 
-FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 from_viewer) {
-  Surface s;
-  vec4 uvs = texcoords_at(point);
-  s.texcoord = vec2(uvs.x, uvs.y);
+// Position and geometric normal, which is not turned to the viewer yet.
+FN void set_place(INOUT(Surface) s, IN(SurfacePoint) point) {
   s.position = point.corner[0] * point.weight[0] + point.corner[1] * point.weight[1] +
                point.corner[2] * point.weight[2];
   s.reach = largest_abs(s.position);
@@ -453,9 +456,42 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
     vec3 moved = vec3(point.to_world[0].w, point.to_world[1].w, point.to_world[2].w);
     s.reach = max2(s.reach, largest_abs(moved)) * point.rounding;
   }
-  s.view = from_viewer * -1.0f;
   vec3 across = cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]);
   s.geometric = normalize_or(across, s.view);
+}
+
+FN vec3 emission_at(IN(MaterialRecord) material, vec4 uvs) {
+  vec3 emission = material.emissive;
+  if (material.emissive_texture != no_index) {
+    vec4 texel = sample_texture(material.emissive_texture, uvs, true);
+    emission = emission * vec3(texel.x, texel.y, texel.z);
+  }
+  return emission;
+}
+
+// With which density by area a point of the triangle is drawn as an emitter (layout/emitters.h).
+FN vec1 drawn_density(IN(SurfacePoint) point) {
+  vec1 density = 0.0f;
+  WHERE(point.emitter != no_index) {
+    uvec1 first;
+    uvec1 next;
+    LOAD1(first, emitter_numbers, point.emitter);
+    LOAD1(next, emitter_numbers, point.emitter + 1u);
+    vec1 chance = vec1(next - first) / drawn_numbers;
+    if (instanced != 0u) chance = chance * (vec1(point.emitter_share) / drawn_numbers);
+    vec3 across = flush_tiny3(cross3(point.corner[1] - point.corner[0], point.corner[2] - point.corner[0]));
+    vec1 area = 0.5f * sqrt(dot3(across, across));
+    SET(density, select(area > 0.0f, flush_lost(chance / area), vec1(0.0f)));
+  }
+  return density;
+}
+
+FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 from_viewer) {
+  Surface s;
+  vec4 uvs = texcoords_at(point);
+  s.texcoord = vec2(uvs.x, uvs.y);
+  s.view = from_viewer * -1.0f;
+  set_place(s, point);
   vec3 n0 = corner_normal(point, 0);
   vec3 n1 = corner_normal(point, 1);
   vec3 n2 = corner_normal(point, 2);
@@ -477,11 +513,7 @@ FN Surface surface_at(IN(MaterialRecord) material, IN(SurfacePoint) point, vec3 
     vec1 texel = sample_texture(material.occlusion_texture, uvs, false).x;
     s.occlusion = 1.0f + material.occlusion_strength * (texel - 1.0f);
   }
-  s.emission = material.emissive;
-  if (material.emissive_texture != no_index) {
-    vec4 texel = sample_texture(material.emissive_texture, uvs, true);
-    s.emission = s.emission * vec3(texel.x, texel.y, texel.z);
-  }
+  s.emission = emission_at(material, uvs);
   if (layered != 0u) add_layers(s, material, point, uvs);
   if (material.normal_texture != no_index)
     s.normal = bent_normal(material.normal_texture, material.normal_scale, point, uvs, s.normal);

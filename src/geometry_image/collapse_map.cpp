@@ -73,7 +73,8 @@ Recipe recipe_of(const scene::Assembly& assembly, const std::vector<uint32_t>& w
 
 class Maker {
  public:
-  Maker(const scene::Assembly& assembly, const Atlas& atlas) : assembly_(assembly), atlas_(atlas) {
+  Maker(const scene::Assembly& assembly, const Atlas& atlas, const std::vector<bool>& kept)
+      : assembly_(assembly), atlas_(atlas), kept_(kept) {
     for (const ChartRecord& chart : atlas.charts) rectangles_.emplace_back(chart);
   }
 
@@ -97,7 +98,9 @@ class Maker {
     uint32_t step = 0;
   };
 
-  bool resizes(size_t chart) const { return atlas_.charts[chart].kind != layout::chart_exact; }
+  bool resizes(size_t chart) const {
+    return atlas_.charts[chart].kind != layout::chart_exact && (kept_.empty() || !kept_[chart]);
+  }
 
   void find_points();
   void fix_corners();
@@ -133,6 +136,7 @@ class Maker {
 
   const scene::Assembly& assembly_;
   const Atlas& atlas_;
+  const std::vector<bool>& kept_;
   std::vector<Rectangle> rectangles_;
   std::vector<uint32_t> points_, parents_;
   std::vector<bool> fixed_;
@@ -490,8 +494,9 @@ CoarseNode Maker::described(const Node& node) const {
 
 }  // namespace
 
-CollapseMap make_collapse_map(const scene::Assembly& assembly, const Atlas& atlas) {
-  return Maker(assembly, atlas).make();
+CollapseMap make_collapse_map(const scene::Assembly& assembly, const Atlas& atlas,
+                              const std::vector<bool>& kept) {
+  return Maker(assembly, atlas, kept).make();
 }
 
 }  // namespace lodestone::geometry_image

@@ -39,6 +39,8 @@ struct CollapseMap {
   std::vector<uint32_t> steps;
 };
 
-CollapseMap make_collapse_map(const scene::Assembly& assembly, const Atlas& atlas);
+// `kept`: of each chart whether all of it stays as it is; empty: none does.
+CollapseMap make_collapse_map(const scene::Assembly& assembly, const Atlas& atlas,
+                              const std::vector<bool>& kept = {});
 
 }  // namespace lodestone::geometry_image

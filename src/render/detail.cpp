@@ -38,14 +38,17 @@ float steepest_cone(const layout::RayCone& camera) {
   return std::max(camera.spread * 1.001f, steepest_scattered);
 }
 
-Detail::Detail(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas)
+Detail::Detail(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas,
+               const std::vector<uint32_t>& first_emitters)
     : backend_(backend), texels_(static_cast<uint32_t>(atlas.texel_map.size())) {
   if (atlas.texel_map.size() > layout::most_detailed_texels) {
     fail(ExitCode::usage, "--pixels-of-error",
          "takes at most {} texels, and the scene has {}; draw it without", layout::most_detailed_texels,
          atlas.texel_map.size());
   }
-  const geometry_image::CollapseMap map = geometry_image::make_collapse_map(assembly, atlas);
+  std::vector<bool> kept;
+  for (const uint32_t emitter : first_emitters) kept.push_back(emitter != 0);
+  const geometry_image::CollapseMap map = geometry_image::make_collapse_map(assembly, atlas, kept);
   levels_ = map.levels;
   steps_ = map.steps;
   points_ = make_buffer(backend, "points", 4, map.points);

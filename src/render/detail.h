@@ -24,8 +24,11 @@ float steepest_cone(const layout::RayCone& camera);
 
 class Detail {
  public:
-  // Uploads what does not change. Throws Error(usage) where there are more texels than primitives can name.
-  Detail(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas);
+  // Uploads what does not change. `first_emitters`: as SceneTables has it; what shines keeps its detail,
+  // for every ray must see the triangles of which points are drawn. Throws Error(usage) where there are more
+  // texels than primitives can name.
+  Detail(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas,
+         const std::vector<uint32_t>& first_emitters);
 
   // Errors and radii of the geometry image. No ray's tolerance may change by more than `steepest` a unit.
   void build(const Buffer& geometry, float steepest);

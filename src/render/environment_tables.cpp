@@ -8,42 +8,18 @@
 
 #include "lodestone/base/parallel.h"
 #include "lodestone/layout/shading.h"
+#include "lodestone/render/number_shares.h"
 #include "lodestone/render/scene_tables.h"
 #include "lodestone/render/view.h"
 
 namespace lodestone::render {
 namespace {
 
-constexpr uint32_t numbers = 1u << 24;
-static_assert(numbers == static_cast<uint32_t>(layout::environment_numbers));
-
 // Rows of the raster that the sky's density comes from. It is the same all round, so one column is enough.
 constexpr uint32_t sky_rows = 64;
 
 double luminance(const glm::vec3& radiance) {
   return 0.2126 * double(radiance.x) + 0.7152 * double(radiance.y) + 0.0722 * double(radiance.z);
-}
-
-// Shares `numbers` out by weight, none of which may be negative: how many come before each, and `numbers` in
-// the end. Every weight above 0 gets at least one. Where there is none, all get the same.
-void share_out(std::vector<double>& weights, uint32_t* first) {
-  const bool nothing = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; });
-  if (nothing) std::fill(weights.begin(), weights.end(), 1.0);
-  double total = 0;
-  uint32_t lit = 0;
-  for (const double weight : weights) {
-    total += weight;
-    lit += weight > 0 ? 1 : 0;
-  }
-  double before = 0;
-  uint32_t lit_before = 0;
-  for (size_t i = 0; i <= weights.size(); ++i) {
-    // In the end `before` is `total`, for both are the same sum.
-    first[i] = lit_before + static_cast<uint32_t>(before / total * (numbers - lit));
-    if (i == weights.size()) break;
-    before += weights[i];
-    lit_before += weights[i] > 0 ? 1 : 0;
-  }
 }
 
 // The rows of cells of a map of `height` rows of texels: where they begin and end, and the solid angle of all
@@ -68,10 +44,6 @@ class Rows {
   uint32_t height_;
 };
 
-uint32_t greatest_step(uint32_t count) {
-  return count < 2 ? 0 : std::bit_floor(count - 1);
-}
-
 // Cells and rows; texel(x, y): the luminance of one.
 template <class Texel>
 void make_distribution(EnvironmentData& data, const Texel& texel) {
@@ -91,17 +63,18 @@ void make_distribution(EnvironmentData& data, const Texel& texel) {
         sum += weights[x];
       }
       light[row] = sum / width * rows.solid_angle(row);
-      share_out(weights, &data.cells[size_t(row) * (width + 1)]);
+      share_out(weights, std::span(data.cells).subspan(size_t(row) * (width + 1), width + 1));
     }
   });
-  if (std::all_of(light.begin(), light.end(), [](double l) { return l == 0; })) {
+  for (const double of_row : light) data.light += of_row;
+  if (data.light == 0) {
     for (uint32_t row = 0; row < rows.count(); ++row) light[row] = rows.solid_angle(row);
   }
   std::vector<uint32_t> first(rows.count() + 1);
-  share_out(light, first.data());
+  share_out(light, first);
   for (uint32_t row = 0; row < rows.count(); ++row) {
     const double cell = rows.solid_angle(row) / width;
-    const double density = double(first[row + 1] - first[row]) / numbers / numbers / cell;
+    const double density = double(first[row + 1] - first[row]) / drawn_numbers / drawn_numbers / cell;
     const auto bits = [](double x) { return std::bit_cast<uint32_t>(static_cast<float>(x)); };
     data.quads[row] = glm::uvec4(first[row], bits(rows.polar_distance(row, 0)),
                                  bits(rows.polar_distance(row, 1)), bits(density));
@@ -160,8 +133,8 @@ EnvironmentData make_environment(const scene::Scene& scene) {
 
 EnvironmentTables::EnvironmentTables(Backend& backend, const scene::Scene& scene) {
   const EnvironmentData data = make_environment(scene);
-  environments =
-      make_buffer(backend, "environments", sizeof(layout::EnvironmentRecord), std::vector{data.record});
+  record = data.record;
+  light = data.light;
   quads = make_buffer(backend, "environment_quads", 16, data.quads);
   cells = make_buffer(backend, "environment_cells", 4, data.cells);
   map = data.map ? 1 : 0;

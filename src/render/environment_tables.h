@@ -17,6 +17,7 @@ struct EnvironmentData {
   layout::EnvironmentRecord record{};
   std::vector<glm::uvec4> quads;
   std::vector<uint32_t> cells;
+  double light = 0;  // luminance summed up over all directions
   bool map = false;  // else the analytic sky, of which there are no texels
 };
 
@@ -28,7 +29,9 @@ EnvironmentData make_environment(const scene::Scene& scene);
 struct EnvironmentTables {
   EnvironmentTables(Backend& backend, const scene::Scene& scene);
 
-  Buffer environments, quads, cells;
+  layout::EnvironmentRecord record;
+  Buffer quads, cells;
+  double light = 0;  // EnvironmentData
   uint32_t map = 0;  // `environment_map` of layout/environment.h
 };
 

@@ -11,13 +11,14 @@ namespace lodestone::render {
 namespace {
 
 std::optional<Detail> make_detail(Backend& device, const scene::Assembly& assembly,
-                                  const geometry_image::Atlas& atlas, const Settings& settings) {
+                                  const geometry_image::Atlas& atlas, const Settings& settings,
+                                  const std::vector<uint32_t>& first_emitters) {
   if (settings.pixels_of_error == 0) return {};
   if (assembly.has_instances())
     fail(ExitCode::usage, "--pixels-of-error", "is not for instances; give --instancing off");
   if (settings.shutter_segments > 0)
     fail(ExitCode::usage, "--pixels-of-error", "does not go together with --shutter; give one of them");
-  return std::optional<Detail>(std::in_place, device, assembly, atlas);
+  return std::optional<Detail>(std::in_place, device, assembly, atlas, first_emitters);
 }
 
 uint64_t image_texels(const geometry_image::Atlas& atlas, const Settings& settings) {
@@ -32,15 +33,16 @@ uint64_t image_texels(const geometry_image::Atlas& atlas, const Settings& settin
 }  // namespace
 
 GeometryImage::GeometryImage(Backend& backend, const scene::Assembly& assembly,
-                             const geometry_image::Atlas& atlas, const Settings& settings)
+                             const geometry_image::Atlas& atlas, const Settings& settings,
+                             const std::vector<uint32_t>& first_emitters)
     : backend_(backend),
-      tables_(backend, assembly, atlas),
+      tables_(backend, assembly, atlas, first_emitters),
       objects_(assembly.objects),
       atlas_objects_(atlas.objects),
       has_tangents_(assembly.has_tangents),
       texels_(static_cast<uint32_t>(atlas.texel_map.size())),
       sweeps_(settings.relaxation_sweeps),
-      detail_(make_detail(backend, assembly, atlas, settings)),
+      detail_(make_detail(backend, assembly, atlas, settings, first_emitters)),
       tracing_(backend, atlas, tables_.leaf_map, settings.traversal,
                uint64_t(settings.width) * settings.height, settings.loop_budget, settings.shutter_segments,
                detail_ ? &*detail_ : nullptr) {

@@ -37,10 +37,10 @@ struct SurfaceBuffers {
 
 class GeometryImage {
  public:
-  // Uploads what does not change. Throws Error(usage) where --pixels-of-error is wanted of what has no levels
-  // of detail.
+  // Uploads what does not change; `first_emitters` as SceneTables. Throws Error(usage) where
+  // --pixels-of-error is wanted of what has no levels of detail.
   GeometryImage(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas,
-                const Settings& settings);
+                const Settings& settings, const std::vector<uint32_t>& first_emitters);
 
   GeometryImage(const GeometryImage&) = delete;  // its parts know each other by address
   GeometryImage& operator=(const GeometryImage&) = delete;

@@ -9,6 +9,7 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/objects.h"
 #include "lodestone/render/box_levels.h"
+#include "lodestone/render/number_shares.h"
 #include "lodestone/render/passes.h"
 
 namespace lodestone::render {
@@ -78,6 +79,7 @@ Instances::Instances(Backend& backend, const scene::Assembly& assembly, uint32_t
       loop_budget_(loop_budget),
       levels_(geometry_image::tree_depth(count_), count_),
       records_(backend, {"instances", layout::instance_quads * uint64_t(count_), 16}),
+      numbers_(backend, {"instance_numbers", count_, 4}),
       lo_(backend, {"instance_lo", count_, 16}),
       hi_(backend, {"instance_hi", count_, 16}),
       keys_(backend, {"keys", 2 * uint64_t(count_), 4}),
@@ -92,7 +94,7 @@ void Instances::run(const PassDecl& pass, const std::vector<BufferId>& buffers, 
 }
 
 void Instances::build(const std::vector<glm::mat4>& matrices, const std::vector<scene::Bounds>& boxes,
-                      const Buffer& objects) {
+                      const Buffer& objects, const std::vector<double>& powers) {
   std::vector<layout::InstanceRecord> records;
   scene::Bounds world;
   rounding_ = 1;
@@ -103,6 +105,7 @@ void Instances::build(const std::vector<glm::mat4>& matrices, const std::vector<
     rounding_ = std::max(rounding_, records.back().rounding);
     world.include(world_box(boxes[instance.object], matrices[i]));
   }
+  if (!powers.empty()) share_out_emitters(records, powers);
   backend_.upload(records_.id(), std::as_bytes(std::span(records)));
   // Bounds are rounded outwards a little more than this box.
   extent_ = extent_of(world) * (1 + 0x1p-13f);
@@ -114,6 +117,26 @@ void Instances::build(const std::vector<glm::mat4>& matrices, const std::vector<
   run(passes::place_instances, {objects.id(), records_.id(), lo_.id(), hi_.id(), keys_.id()}, push, count_);
   sort();
   build_tree();
+}
+
+// By the power of the object and by how much larger the instance is.
+void Instances::share_out_emitters(std::vector<layout::InstanceRecord>& records,
+                                   const std::vector<double>& powers) {
+  std::vector<double> weights;
+  emitter_power_ = 0;
+  for (const layout::InstanceRecord& record : records) {
+    glm::dmat3 linear;
+    for (glm::length_t row = 0; row < 3; ++row) linear[row] = glm::dvec3(record.to_world[row]);
+    const double scale = std::cbrt(std::abs(glm::determinant(linear)));
+    const double weight = record.rounding < 0 ? 0 : powers[record.object] * scale * scale;
+    weights.push_back(std::isfinite(weight) ? weight : 0);
+    emitter_power_ += weights.back();
+  }
+  std::vector<uint32_t> first(records.size() + 1);
+  share_out(weights, first);
+  for (size_t i = 0; i < records.size(); ++i)
+    records[i].emitter_share = weights[i] > 0 ? first[i + 1] - first[i] : 0;
+  backend_.upload(numbers_.id(), std::as_bytes(std::span(first)).first(4 * records.size()));
 }
 
 // keys_ becomes sorted.

@@ -21,20 +21,24 @@ class Instances {
 
   // Sorts the instances and makes the tree over them. `matrices`: one an instance; `boxes`: one an object,
   // round all of its surface; `objects`: Tracing::objects(). An instance whose matrix has no inverse is not
-  // seen.
+  // seen. `powers`: Emitters::powers(), by which instances are drawn as lights; empty: none is.
   void build(const std::vector<glm::mat4>& matrices, const std::vector<scene::Bounds>& boxes,
-             const Buffer& objects);
+             const Buffer& objects, const std::vector<double>& powers);
 
   // As Tracing::trace; rays.instances says in which instance each hit is.
   bool trace(Tracing& tracing, const Buffer& geometry, const RayBuffers& rays, uint32_t count,
              const TraceQuery& query, const Interrupted& interrupted);
 
   const Buffer& records() const { return records_; }  // layout::InstanceRecord
+  const Buffer& numbers() const { return numbers_; }  // layout/draw_emitter.h
+  double emitter_power() const { return emitter_power_; }
+  uint32_t count() const { return count_; }
 
  private:
   template <class Push>
   void run(const PassDecl& pass, const std::vector<BufferId>& buffers, const Push& push, uint32_t invocations,
            const std::array<uint32_t, pass_constants>& constants = {});
+  void share_out_emitters(std::vector<layout::InstanceRecord>& records, const std::vector<double>& powers);
   void sort();
   void build_tree();
   void reserve(uint32_t rays);
@@ -44,10 +48,11 @@ class Instances {
   const scene::Assembly& assembly_;
   uint32_t count_, loop_budget_;
   HierarchyLevels levels_;
-  float rounding_ = 1;  // the largest of all instances
-  float extent_ = 0;    // the largest absolute coordinate
+  float rounding_ = 1;        // the largest of all instances
+  double emitter_power_ = 0;  // of all instances
+  float extent_ = 0;          // the largest absolute coordinate
   layout::BoxGrid grid_{};
-  Buffer records_, lo_, hi_, keys_, sorted_, boxes_;
+  Buffer records_, numbers_, lo_, hi_, keys_, sorted_, boxes_;
   // Of the rays on their way.
   uint32_t capacity_ = 0;
   RayBuffers local_;

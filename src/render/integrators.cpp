@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From what the camera's rays have hit to the light that they carry, each integrator as passes.
+#include "lodestone/layout/emitters.h"
 #include "lodestone/layout/recursion.h"
+#include "lodestone/render/number_shares.h"
 #include "lodestone/render/passes.h"
 #include "lodestone/render/renderer_state.h"
 
@@ -31,9 +33,9 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, con
   for (uint32_t light = 0; light < light_count; ++light) {
     push.light = light;
     run(passes::shade,
-        surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
-                                  radiance().id(), environment.environments.id(), environment.quads.id(),
-                                  environment.cells.id(), paths.id()}),
+        surface_buffers(
+            primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance().id(),
+                      environment.quads.id(), environment.cells.id(), paths.id()}),
         push, push.rays, surface_constants(recursion, true));
     if (!add_unblocked(push.rays, push.vertex > 0, interrupted)) return false;
   }
@@ -55,8 +57,16 @@ bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t rec
   for (;; ++light_push.vertex) {
     if (light_push.vertex > 0) light_push.first = 0;
     if (!direct_light(light_push, recursion, interrupted)) return false;
-    const layout::PathPush push{rays.first_ray,       rays.rays,   rays.sample_index, light_push.vertex,
-                                settings.max_bounces, light_count, sky_lights,        0};
+    const layout::PathPush push{rays.first_ray,
+                                rays.rays,
+                                rays.sample_index,
+                                light_push.vertex,
+                                settings.max_bounces,
+                                light_count,
+                                0,
+                                0,
+                                0,
+                                0};
     count_from_zero();
     run(passes::branch,
         surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push,
@@ -66,18 +76,65 @@ bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t rec
   }
 }
 
+// A point of what shines, for each path that needs one.
+void Renderer::State::draw_emitters(const layout::PathPush& path) {
+  // Of them all is on the device, if of nothing else.
+  const GeometryImage& shining = portions ? *portions->emitter_image() : *image;
+  const SurfaceBuffers surface = shining.buffers();
+  const layout::EmitterPush push{path.first_ray,
+                                 path.rays,
+                                 path.sample_index,
+                                 path.vertex,
+                                 light_choice.first_emitter_number,
+                                 instances ? instances->count() : 0,
+                                 instances ? greatest_step(instances->count()) : 0,
+                                 emitters->half_step()};
+  const uint32_t placing = instances ? layout::placing_instances : 0;
+  run(passes::draw_emitters,
+      {primary.hits.id(),
+       surface.geometry,
+       surface.normal_map,
+       surface.texel_map,
+       surface.triangles,
+       surface.positions,
+       surface.normals,
+       surface.tangents,
+       surface.texcoords,
+       materials.images.id(),
+       emitters->numbers().id(),
+       surface.charts,
+       materials.parts.id(),
+       materials.materials.id(),
+       materials.textures.id(),
+       emitter_frame ? emitter_frame.id() : frame.id(),
+       settings.shutter_segments > 0 ? primary.times.id() : primary.steps.id(),
+       instances ? instances->records().id() : primary.trails.id(),
+       shining.detail() ? shining.detail()->collapses().id() : primary.steps.id(),
+       primary.rays.id(),
+       emitters->texels().id(),
+       emitters->objects().id(),
+       instances ? instances->numbers().id() : emitters->objects().id(),
+       emitters->drawn().id()},
+      push, push.rays, {shining.sources(), materials.layered, 0, 0, placing, settings.shutter_segments});
+}
+
 // Vertex by vertex, until no path goes on.
 bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
+  // Where other integrators have `recursion`, whether there are emitters.
+  const auto constants = surface_constants(emitters ? 1 : 0, true);
   for (uint32_t vertex = 0;; ++vertex) {
-    const layout::PathPush push{
-        rays.first_ray,       rays.rays,   rays.sample_index, vertex,
-        settings.max_bounces, light_count, sky_lights,        vertex == 0 ? rays.first : 0};
+    const layout::PathPush push{rays.first_ray,          rays.rays,
+                                rays.sample_index,       vertex,
+                                settings.max_bounces,    light_count,
+                                light_choice.step,       vertex == 0 ? rays.first : 0,
+                                light_choice.sky_chance, light_choice.emitter_chance};
+    if (emitters) draw_emitters(push);
     count_from_zero();
     run(passes::path,
         surface_buffers(primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(),
-                                  radiance().id(), paths.id(), going_on.id(), environment.environments.id(),
-                                  environment.quads.id(), environment.cells.id()}),
-        push, push.rays, surface_constants(layout::recursion_none, true));
+                                  radiance().id(), paths.id(), going_on.id(), environment.quads.id(),
+                                  environment.cells.id(), emitters ? emitters->drawn().id() : paths.id()}),
+        push, push.rays, constants);
     const bool last = counted() == 0;
     if (!add_unblocked(push.rays, vertex > 0, interrupted)) return false;
     if (last) return true;

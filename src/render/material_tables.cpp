@@ -2,6 +2,7 @@
 #include "lodestone/render/material_tables.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "lodestone/layout/frame.h"
@@ -109,8 +110,14 @@ std::vector<layout::MaterialRecord> material_records(const scene::Scene& scene,
 
 }  // namespace
 
+float srgb_level(uint32_t value) {
+  const double x = value / 255.0;
+  return static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+}
+
 MaterialTables::MaterialTables(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly) {
   std::vector<uint32_t> texels, offsets;
+  for (uint32_t i = 0; i < layout::srgb_levels; ++i) texels.push_back(std::bit_cast<uint32_t>(srgb_level(i)));
   for (const scene::Image& image : scene.images) {
     offsets.push_back(static_cast<uint32_t>(texels.size()));
     for (size_t i = 0; i + 4 <= image.rgba.size(); i += 4) {
@@ -119,12 +126,6 @@ MaterialTables::MaterialTables(Backend& backend, const scene::Scene& scene, cons
     }
   }
   images = make_buffer(backend, "images", 4, texels);
-  std::vector<float> srgb(256);
-  for (int i = 0; i < 256; ++i) {
-    const double x = i / 255.0;
-    srgb[i] = static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-  }
-  srgb_table = make_buffer(backend, "srgb_table", 4, srgb);
 
   std::vector<layout::TextureRecord> texture_records;
   const auto records = material_records(scene, texture_records, offsets);

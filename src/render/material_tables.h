@@ -8,10 +8,13 @@
 
 namespace lodestone::render {
 
+// Linear, of a value of a texture's channel that is sRGB-encoded.
+float srgb_level(uint32_t value);
+
 struct MaterialTables {
   MaterialTables(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly);
 
-  Buffer parts, materials, textures, images, srgb_table;
+  Buffer parts, materials, textures, images;
   bool has_masks = false;  // some material cuts out texels
   uint32_t layered = 0;    // layout/surface.h
 };

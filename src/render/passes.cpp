@@ -4,6 +4,7 @@
 #include "lodestone/layout/boxes.h"
 #include "lodestone/layout/denoise.h"
 #include "lodestone/layout/detail_nodes.h"
+#include "lodestone/layout/emitters.h"
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/objects.h"
@@ -211,16 +212,16 @@ constexpr Binding wide_nodes_bindings[] = {
   {"hits", quad, read}, {"geometry", quad, read}, {"normal_map", quad, read}, {"texel_map", quad, read}, \
       {"triangles", quad, read}, {"positions", quad, read}, {"normals", quad, read},                     \
       {"tangents", quad, read}, {"texcoords", quad, read}, {"images", word, read},                       \
-      {"srgb_table", word, read}, {"charts", quad, read}, {"parts", structs, read},                      \
+      {"emitter_numbers", word, read}, {"charts", quad, read}, {"parts", structs, read},                 \
       {"materials", structs, read}, {"textures", structs, read}, {"frame", structs, read},               \
       {"ray_words", word, read}, {"placing", quad, placing}, {                                           \
     "collapses", word, read                                                                              \
   }
 #define SURFACE_BINDINGS SURFACE_BINDINGS_OF(read)
 
-#define ENVIRONMENT_BINDINGS                                            \
-  {"environments", structs, read}, {"environment_quads", quad, read}, { \
-    "environment_cells", word, read                                     \
+#define ENVIRONMENT_BINDINGS           \
+  {"environment_quads", quad, read}, { \
+    "environment_cells", word, read    \
   }
 
 constexpr Binding mask_bindings[] = {SURFACE_BINDINGS,
@@ -252,7 +253,15 @@ constexpr Binding ambient_bindings[] = {SURFACE_BINDINGS,
 constexpr Binding path_bindings[] = {
     SURFACE_BINDINGS_OF(read_write), {"rays", quad, read_write},        {"lights", structs, read},
     {"contributions", quad, write},  {"shadow_rays", quad, write},      {"radiance", quad, read_write},
-    {"paths", quad, read_write},     {"going_on", structs, read_write}, ENVIRONMENT_BINDINGS};
+    {"paths", quad, read_write},     {"going_on", structs, read_write}, ENVIRONMENT_BINDINGS,
+    {"drawn_points", quad, read}};
+
+constexpr Binding draw_emitters_bindings[] = {SURFACE_BINDINGS,
+                                              {"rays", quad, read},
+                                              {"emitter_texels", word, read},
+                                              {"emitter_objects", word, read},
+                                              {"instance_numbers", word, read},
+                                              {"drawn_points", quad, write}};
 
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
@@ -355,6 +364,8 @@ const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPu
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
 const PassDecl ambient{"shade", "geometry_image/ambient", ambient_bindings, sizeof(AmbientPush)};
 const PassDecl branch{"scatter", "geometry_image/branch", branch_bindings, sizeof(PathPush)};
+const PassDecl draw_emitters{"emitters", "geometry_image/draw_emitters", draw_emitters_bindings,
+                             sizeof(EmitterPush)};
 const PassDecl path{"shade", "geometry_image/path", path_bindings, sizeof(PathPush)};
 const PassDecl accumulate{"accumulate", "geometry_image/accumulate", accumulate_bindings, sizeof(CountPush)};
 const PassDecl aov{"aov", "geometry_image/aov", aov_bindings, sizeof(RayPush)};

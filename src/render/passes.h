@@ -17,7 +17,7 @@ extern const PassDecl portion_begin, portion_enter, portion_end, occlude_portion
 extern const PassDecl occlude_enter, occlude_scan, occlude_gather, occlude_local;
 extern const PassDecl camera, trace_threaded, trace_octant, trace_wide, trace_boxes, trace_tile,
     occlude_threaded, occlude_octant, occlude_wide, occlude_boxes;
-extern const PassDecl mask, shade, ambient, branch, path, accumulate, aov, resolve;
+extern const PassDecl mask, shade, ambient, branch, draw_emitters, path, accumulate, aov, resolve;
 extern const PassDecl features, denoise_moments, denoise_begin, denoise_variance, denoise_filter, denoise_end;
 
 }  // namespace lodestone::render::passes

@@ -64,9 +64,10 @@ SurfaceBuffers FoundSurface::buffers() const {
 
 // A portion on the device.
 struct Portions::Resident {
-  Resident(Backend& backend, uint32_t number, const geometry_image::Portion& made, const Settings& settings)
+  Resident(Backend& backend, uint32_t number, const geometry_image::Portion& made, const Settings& settings,
+           const std::vector<uint32_t>& first_emitters)
       : portion(number),
-        image(backend, made.assembly, made.atlas, settings),
+        image(backend, made.assembly, made.atlas, settings, first_emitters),
         triangle_numbers(make_buffer(backend, "triangle_numbers", 4, made.triangles)),
         run_count(static_cast<uint32_t>(made.runs.size())) {
     std::vector<geometry_image::TexelRun> ended = made.runs;
@@ -82,12 +83,14 @@ struct Portions::Resident {
 };
 
 Portions::Portions(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
-                   const geometry_image::Atlas& atlas, const Settings& settings, const PosedVertices& rest,
-                   uint64_t bytes, uint32_t rays, bool masks)
+                   const geometry_image::Atlas& atlas, const Settings& settings,
+                   const std::vector<uint32_t>& first_emitters, const PosedVertices& rest, uint64_t bytes,
+                   uint32_t rays, bool masks)
     : backend_(backend),
       assembly_(assembly),
       atlas_(atlas),
       settings_(settings_of_portions(settings)),
+      first_emitters_(first_emitters),
       sources_(sources_of(atlas)),
       found_(backend, "found_", rays, sources_),
       wanted_(backend, {"wanted", 1, 4}),
@@ -96,6 +99,7 @@ Portions::Portions(Backend& backend, const scene::Scene& scene, const scene::Ass
       rest_(scene::blended_positions(assembly, rest.weights, rest.matrices)) {
   reserve(rays);
   if (masks) shadow_found_ = FoundSurface(backend, "shadow_found_", rays, sources_);
+  if (!first_emitters_.empty()) load_emitters();
   plan(settings, bytes);
   streaming_.portions = static_cast<uint32_t>(portions_.size());
   portion_bytes_.resize(portions_.size(), 0);
@@ -108,6 +112,49 @@ void Portions::reserve(uint32_t rays) {
   capacity_ = rays;
   local_ = {};
   local_ = RayBuffers(backend_, "local_", rays);
+}
+
+void Portions::load_emitters() {
+  std::vector<geometry_image::ChartPiece> pieces;
+  for (uint32_t c = 0; c < first_emitters_.size(); ++c) {
+    const layout::ChartRecord& chart = atlas_.charts[c];
+    if (first_emitters_[c] != 0) pieces.push_back({c, 0, 0, chart.width, chart.height});
+  }
+  const geometry_image::Portion made = maker_.make(pieces, rest_);
+  const std::vector<uint32_t> first = emitters_of(pieces);
+  if (const uint64_t needed = backend_.allocated_bytes() + bytes_of(made); needed > settings_.device_memory) {
+    fail(ExitCode::usage, "--device-memory",
+         "{} MiB are too little: pictures, rays, textures and all that shines take {}; give more, or render "
+         "without --integrator path",
+         settings_.device_memory / mebibyte, needed / mebibyte + 1);
+  }
+  emitters_ = std::make_unique<Resident>(backend_, 0, made, settings_, first);
+  emitter_runs_ = made.runs;
+}
+
+// ChartRecord::first_emitter of each piece.
+std::vector<uint32_t> Portions::emitters_of(const std::vector<geometry_image::ChartPiece>& pieces) const {
+  std::vector<uint32_t> first;
+  if (first_emitters_.empty()) return first;
+  for (const geometry_image::ChartPiece& piece : pieces) {
+    const uint32_t of_chart = first_emitters_[piece.chart];
+    first.push_back(of_chart == 0 ? 0 : of_chart + piece.y * atlas_.charts[piece.chart].width + piece.x);
+  }
+  return first;
+}
+
+const GeometryImage* Portions::emitter_image() const {
+  return emitters_ ? &emitters_->image : nullptr;
+}
+
+std::vector<uint32_t> Portions::emitter_texels(const std::vector<uint32_t>& texels) const {
+  std::vector<uint32_t> local;
+  size_t run = 0;
+  for (const uint32_t texel : texels) {
+    while (run + 1 < emitter_runs_.size() && emitter_runs_[run + 1].whole <= texel) ++run;
+    local.push_back(texel == 0 ? 0 : emitter_runs_[run].local + (texel - emitter_runs_[run].whole));
+  }
+  return local;
 }
 
 // As few as can be that leave room for several.
@@ -128,7 +175,8 @@ void Portions::plan(const Settings& settings, uint64_t bytes) {
     if (2 * needed <= left) return;
     if (quads <= double(geometry_image::least_portion)) {
       fail(ExitCode::usage, "--device-memory",
-           "{} MiB are too little: pictures, rays and textures take {}, and portions of the scene {} more; "
+           "{} MiB are too little: pictures, rays, textures and what shines take {}, and portions of the "
+           "scene {} more; "
            "give at least {}M, or render a smaller picture",
            settings.device_memory / mebibyte, fixed / mebibyte + 1, 2 * needed / mebibyte + 1,
            (fixed + 2 * needed) / mebibyte + 2);
@@ -139,7 +187,7 @@ void Portions::plan(const Settings& settings, uint64_t bytes) {
 
 uint64_t Portions::bytes_of(const geometry_image::Portion& portion) const {
   CountingBackend counting(backend_.info());
-  const GeometryImage image(counting, portion.assembly, portion.atlas, settings_);
+  const GeometryImage image(counting, portion.assembly, portion.atlas, settings_, {});
   return counting.allocated_bytes() + 4 * portion.triangles.size() + 8 * (portion.runs.size() + 1) + 512;
 }
 
@@ -149,6 +197,7 @@ void Portions::update(const PosedVertices& pose, const std::vector<PosedVertices
   pose_ = pose;
   shutter_ = shutter;
   boxes_ = boxes;
+  if (emitters_) emitters_->image.update(pose, shutter, boxes, boxes);
   for (Resident& resident : residents_) resident.placed = false;
   extent_ = 0;
   for (const scene::Bounds& box : boxes) extent_ = std::max(extent_, extent_of(box));
@@ -292,7 +341,7 @@ Portions::Resident& Portions::load(uint32_t portion) {
   uint64_t& bytes = portion_bytes_[portion];
   if (bytes == 0) bytes = bytes_of(made);
   make_room(bytes);
-  residents_.emplace_back(backend_, portion, made, settings_);
+  residents_.emplace_back(backend_, portion, made, settings_, emitters_of(portions_[portion]));
   ++streaming_.loads;
   streaming_.peak_bytes = std::max(streaming_.peak_bytes, backend_.allocated_bytes());
   return residents_.back();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <list>
+#include <memory>
 #include <vector>
 
 #include "lodestone/geometry_image/portions.h"
@@ -30,12 +31,14 @@ struct FoundSurface {
 
 class Portions {
  public:
-  // `rest`: the rest pose; `bytes`: what the whole would take on the device. Throws Error(usage) where
-  // Settings::device_memory leaves too little beside what the back end has allocated already; what must be of
-  // this class itself is for at most `rays` rays. All references must outlive it.
+  // `first_emitters`: as SceneTables; `rest`: the rest pose; `bytes`: what the whole would take on the
+  // device. Throws Error(usage) where Settings::device_memory leaves too little beside what the back end has
+  // allocated already; what must be of this class itself is for at most `rays` rays. All references must
+  // outlive it.
   Portions(Backend& backend, const scene::Scene& scene, const scene::Assembly& assembly,
-           const geometry_image::Atlas& atlas, const Settings& settings, const PosedVertices& rest,
-           uint64_t bytes, uint32_t rays, bool masks);
+           const geometry_image::Atlas& atlas, const Settings& settings,
+           const std::vector<uint32_t>& first_emitters, const PosedVertices& rest, uint64_t bytes,
+           uint32_t rays, bool masks);
   ~Portions();
 
   // As GeometryImage::update, of the whole: where its portions are from now on.
@@ -51,6 +54,10 @@ class Portions {
 
   const FoundSurface& found() const { return found_; }  // of the camera's rays, and where they go on
   const FoundSurface& found_by_shadows() const { return shadow_found_; }  // where materials cut out texels
+  // All charts that shine, always there, to draw points of them; null: there are none. And where it has these
+  // texels of the atlas, which ascend or are 0.
+  const GeometryImage* emitter_image() const;
+  std::vector<uint32_t> emitter_texels(const std::vector<uint32_t>& texels) const;
   uint32_t sources() const { return sources_; }
   Traversal traversal() const { return settings_.traversal; }
   const Streaming& streaming() const { return streaming_; }
@@ -59,6 +66,8 @@ class Portions {
   struct Resident;
 
   void reserve(uint32_t rays);
+  void load_emitters();
+  std::vector<uint32_t> emitters_of(const std::vector<geometry_image::ChartPiece>& pieces) const;
   void plan(const Settings& settings, uint64_t bytes);
   uint64_t bytes_of(const geometry_image::Portion& portion) const;
   template <class Push>
@@ -81,6 +90,7 @@ class Portions {
   const scene::Assembly& assembly_;
   const geometry_image::Atlas& atlas_;
   Settings settings_;
+  const std::vector<uint32_t>& first_emitters_;
   uint32_t sources_;
   RayBuffers local_;  // of `capacity_` rays
   uint32_t capacity_ = 0;
@@ -99,6 +109,8 @@ class Portions {
   std::vector<scene::Bounds> bounds_;                 // a portion each, of all of the shutter's time
   std::vector<std::vector<scene::Bounds>> segments_;  // the same, of each segment; of one where nothing moves
   std::list<Resident> residents_;                     // those loaded last at the end
+  std::unique_ptr<Resident> emitters_;
+  std::vector<geometry_image::TexelRun> emitter_runs_;
   Streaming streaming_;
 };
 

@@ -66,6 +66,7 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   const uint32_t segments = settings.shutter_segments;
   cameras = Buffer(device, {"cameras", layout::camera_quads * (uint64_t(segments) + 1), 16});
   cut_out = Buffer(device, {"cut_out", 1, 4});
+  if (settings.integrator == Integrator::path) emitter_data = render::make_emitters(scene, assembly, atlas);
   frame = Buffer(device, {"frame", 1, sizeof(layout::FrameRecord)});
   const bool splits = settings.integrator == Integrator::specular, eye = !goes_on(settings.integrator);
   if (splits && settings.max_bounces > most_specular_bounces) {
@@ -97,16 +98,19 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
   if (settings.denoise) denoiser.emplace(device, settings, batch_rays);
   make_surface();
+  make_emitters();
   setup = device.finish();
 }
 
 // On the device as a whole where it fits beside all else.
 void Renderer::State::make_surface() {
   const scene::Pose rest = scene::evaluate(scene, scene::none, 0);
+  if (const scene::Bounds box = pose_box.of(scene, rest); !box.empty)
+    scene_radius = double(glm::length(box.hi - box.lo)) / 2;
   if (settings.device_memory > 0) {
     CountingBackend counting(backend.info());
     const uint64_t bytes = [&] {
-      const GeometryImage whole(counting, assembly, atlas, settings);
+      const GeometryImage whole(counting, assembly, atlas, settings, emitter_data.first_of_charts);
       return counting.allocated_bytes();
     }();
     if (backend.allocated_bytes() + bytes > settings.device_memory) {
@@ -117,14 +121,24 @@ void Renderer::State::make_surface() {
              "least {}M, or --instancing off",
              ((backend.allocated_bytes() + bytes) >> 20) + 1);
       }
-      portions.emplace(backend, scene, assembly, atlas, settings, posed(rest), bytes, batch_rays,
-                       materials.has_masks);
+      portions.emplace(backend, scene, assembly, atlas, settings, emitter_data.first_of_charts, posed(rest),
+                       bytes, batch_rays, materials.has_masks);
       return;
     }
   }
-  image.emplace(backend, assembly, atlas, settings);
+  image.emplace(backend, assembly, atlas, settings, emitter_data.first_of_charts);
   if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0)
     image->relax(atlas, posed(rest), scene.name);
+}
+
+void Renderer::State::make_emitters() {
+  if (emitter_data.empty()) return;
+  if (portions) {
+    emitters.emplace(backend, emitter_data, portions->emitter_texels(emitter_data.texels), batch_rays);
+    emitter_frame = Buffer(backend, backend.desc(frame.id()));
+  } else {
+    emitters.emplace(backend, emitter_data, emitter_data.texels, batch_rays);
+  }
 }
 
 // Null: nothing is tolerated.
@@ -160,7 +174,9 @@ void Renderer::State::update(const scene::Pose& pose, const std::vector<Moment>&
     return;
   }
   image->update(posed(pose), moments, boxes, boxes);
-  if (instances) instances->build(scene::frame_instances(assembly, pose), boxes, image->tracing().objects());
+  if (instances)
+    instances->build(scene::frame_instances(assembly, pose), boxes, image->tracing().objects(),
+                     emitters ? emitters->powers() : std::vector<double>{});
 }
 
 // Round each object in its space.
@@ -203,13 +219,25 @@ float Renderer::State::find_focus(const View& view) {
   return focus_of(view, rays, hits);
 }
 
+// Of the surfaces that shine, as they are placed.
+double Renderer::State::emitter_power() const {
+  if (!emitters) return 0;
+  if (instances) return instances->emitter_power();
+  double power = 0;
+  for (const double of_object : emitters->powers()) power += of_object;
+  return power;
+}
+
 void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
                                   const std::vector<Moment>& shutter) {
   scene::Sky sky;
-  const auto records = frame_lights(scene, pose, view, sky);
+  std::vector<layout::LightRecord> records = frame_lights(scene, pose, view, sky);
+  if (emitters) {
+    records.emplace_back();
+    records.back().kind = layout::light_emitters;
+  }
   light_count = static_cast<uint32_t>(records.size());
-  sky_lights = static_cast<uint32_t>(std::count_if(
-      records.begin(), records.end(), [](const auto& record) { return record.kind == layout::light_sky; }));
+  light_choice = choose_lights(records, {scene_radius, environment.light, emitter_power()});
   lights = make_buffer(backend, "lights", sizeof(layout::LightRecord), records);
   layout::FrameRecord record{};
   record.origin = view.origin;
@@ -237,8 +265,13 @@ void Renderer::State::begin_frame(const scene::Pose& pose, const View& view,
   record.tolerance = camera.width;
   record.tolerance_spread = camera.spread;
   record.steepest = steepest_cone(camera);
+  record.environment = environment.record;
   frame_record = record;
   backend.upload(frame.id(), std::as_bytes(std::span(&record, 1)));
+  if (emitter_frame) {
+    record.image_texels = portions->emitter_image()->texels();
+    backend.upload(emitter_frame.id(), std::as_bytes(std::span(&record, 1)));
+  }
   if (record.segments > 0) upload_cameras(record, shutter);
 }
 

@@ -9,9 +9,11 @@
 #include "lodestone/layout/frame.h"
 #include "lodestone/layout/recursion.h"
 #include "lodestone/render/denoiser.h"
+#include "lodestone/render/emitters.h"
 #include "lodestone/render/environment_tables.h"
 #include "lodestone/render/geometry_image.h"
 #include "lodestone/render/instances.h"
+#include "lodestone/render/light_choice.h"
 #include "lodestone/render/material_tables.h"
 #include "lodestone/render/portions.h"
 #include "lodestone/render/renderer.h"
@@ -29,6 +31,8 @@ struct Renderer::State {
   Settings settings;
   MaterialTables materials;
   EnvironmentTables environment;
+  EmitterData emitter_data;          // of `path`, else empty
+  std::optional<Emitters> emitters;  // none: nothing shines
   // One of the two: all of the surface is on the device, or portions of it come and go.
   std::optional<GeometryImage> image;
   std::optional<Portions> portions;
@@ -40,6 +44,7 @@ struct Renderer::State {
 
   // Rewritten every frame.
   Buffer frame, lights, cameras, cut_out;
+  Buffer emitter_frame;      // of the geometry image that emitters are drawn in, where that is another one
   layout::RayCone camera{};  // what rays tolerate that have not been scattered
   RayBuffers primary, shadow, loaded;
   uint32_t loaded_rays = 0;
@@ -49,7 +54,9 @@ struct Renderer::State {
   uint32_t batch = 0;
   layout::FrameRecord frame_record{};
   Buffer contributions, paths, branches, going_on, beauty, display, aovs;
-  uint32_t light_count = 0, sky_lights = 0;
+  uint32_t light_count = 0;
+  LightChoice light_choice;  // of `path`
+  double scene_radius = 0;   // of a sphere round it, at rest
   uint32_t batch_rays = 0;
 
   State(Backend& device, const scene::Scene& scene_in, const scene::Assembly& assembly_in,
@@ -71,8 +78,8 @@ struct Renderer::State {
     std::vector<BufferId> ids = {
         found != nullptr ? found->hits.id() : rays.hits.id(), surface.geometry, surface.normal_map,
         surface.texel_map, surface.triangles, surface.positions, surface.normals, surface.tangents,
-        surface.texcoords, materials.images.id(), materials.srgb_table.id(), surface.charts,
-        materials.parts.id(), materials.materials.id(), materials.textures.id(), frame.id(),
+        surface.texcoords, materials.images.id(), emitters ? emitters->numbers().id() : rays.steps.id(),
+        surface.charts, materials.parts.id(), materials.materials.id(), materials.textures.id(), frame.id(),
         // What the constants leave out nothing reads; any words and quads will do.
         instances                       ? rays.instances.id()
         : settings.shutter_segments > 0 ? times_of(rays).id()
@@ -122,10 +129,12 @@ struct Renderer::State {
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
 
   void make_surface();
+  void make_emitters();
   PosedVertices posed(const scene::Pose& pose) const;
   void update(const scene::Pose& pose, const std::vector<Moment>& shutter);
   float find_focus(const View& view);
   void look_from(const View* view);
+  double emitter_power() const;
   void begin_frame(const scene::Pose& pose, const View& view, const std::vector<Moment>& shutter);
   void upload_cameras(const layout::FrameRecord& record, const std::vector<Moment>& shutter);
   std::vector<scene::Bounds> object_boxes(const scene::Pose& pose) const;
@@ -147,6 +156,7 @@ struct Renderer::State {
   bool direct_light(layout::RayPush push, uint32_t recursion, const Interrupted& interrupted);
   bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
   bool recursive_sample(const layout::RayPush& rays, uint32_t recursion, const Interrupted& interrupted);
+  void draw_emitters(const layout::PathPush& push);
   bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
   bool add_unblocked(uint32_t count, bool scattered, const Interrupted& interrupted);
   void count_from_zero();

@@ -60,7 +60,7 @@ void upload_deltas(SceneTables& tables, Backend& backend, const scene::Assembly&
 }  // namespace
 
 SceneTables::SceneTables(Backend& backend, const scene::Assembly& assembly,
-                         const geometry_image::Atlas& atlas) {
+                         const geometry_image::Atlas& atlas, const std::vector<uint32_t>& first_emitters) {
   upload_vertices(*this, backend, assembly);
   upload_deltas(*this, backend, assembly);
   triangles = make_buffer(backend, "triangles", 16, assembly.triangles);
@@ -68,7 +68,12 @@ SceneTables::SceneTables(Backend& backend, const scene::Assembly& assembly,
   std::vector<glm::uvec2> slots = atlas.leaf_map;  // in pairs, for those who read them as quads
   if (slots.size() % 2 != 0) slots.emplace_back(layout::empty_slot, 0);
   leaf_map = make_buffer(backend, "leaf_map", 4, slots);
-  charts = make_buffer(backend, "charts", 16, atlas.charts);
+  std::vector<layout::ChartRecord> records;
+  if (!first_emitters.empty()) {
+    records = atlas.charts;
+    for (size_t i = 0; i < records.size(); ++i) records[i].first_emitter = first_emitters[i];
+  }
+  charts = make_buffer(backend, "charts", 16, first_emitters.empty() ? atlas.charts : records);
   sources = sources_of(atlas);
 }
 

@@ -9,7 +9,9 @@
 namespace lodestone::render {
 
 struct SceneTables {
-  SceneTables(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas);
+  // `first_emitters`: of each chart ChartRecord::first_emitter; empty: nothing shines.
+  SceneTables(Backend& backend, const scene::Assembly& assembly, const geometry_image::Atlas& atlas,
+              const std::vector<uint32_t>& first_emitters);
 
   // Inputs of blend.
   Buffer base_positions, base_normals, base_tangents, vertex_ranges;

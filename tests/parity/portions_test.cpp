@@ -126,6 +126,45 @@ TEST_P(PortionsOn, LetRaysThroughMasks) {
   }
 }
 
+// What shines is large enough to be cut, or many charts; points of it are drawn where none of it is there.
+TEST_P(PortionsOn, AreLitByWhatShinesInOthers) {
+  scene::Scene scene = grid_sphere(128);
+  scene.sky = scene::Sky{};
+  scene::Material lamp;
+  lamp.emissive = {1, 2, 3};
+  lamp.emissive_texture.image = 0;
+  scene::Image checkers;
+  checkers.width = checkers.height = 2;
+  checkers.rgba = {255, 255, 255, 255, 0, 0, 0, 255, 90, 90, 200, 255, 200, 9, 90, 255};
+  scene.images = {checkers};
+  scene.materials = {scene::Material(), lamp};
+  scene.meshes.push_back(grid_sphere(40).meshes[0]);
+  scene.meshes.push_back(square(2, 1));
+  for (scene::Part& part : scene.meshes[1].parts) part.material = 1;
+  for (const float x : {-2.0f, 2.5f}) {
+    scene.nodes.emplace_back();
+    scene.nodes.back().mesh = x < 0 ? 1 : 2;
+    scene.nodes.back().translation = {x, 0.5f, 0.25f};
+  }
+  scene::Channel channel;
+  channel.node = static_cast<uint32_t>(scene.nodes.size() - 1);
+  channel.times = {0, 1};
+  channel.values = {2.5f, 0.5f, 0.25f, 2, -0.5f, 0.5f};
+  scene.animations = {{"carried", {channel}}};
+  for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact}) {
+    ReadyScene ready(scene, kind);
+    ready.animation = 0;
+    const bool exact = kind == AtlasKind::exact;
+    render::Settings settings = settings_of(render::Integrator::path, (exact ? 8 : 4) * megabyte);
+    settings.spp = 1;
+    settings.max_bounces = 2;
+    EXPECT_GT(expect_the_same(*backend_, ready, 0.5f, settings), 1u);
+    if (exact) continue;
+    settings.shutter_segments = 2;
+    EXPECT_GT(expect_the_same(*backend_, ready, 0.25f, settings, 0.5f), 1u);
+  }
+}
+
 TEST_P(PortionsOn, FindTheHitsOfTheWholeOnEdgesAndCorners) {
   const ReadyScene ready(grid_sphere(192));
   const std::vector<glm::vec3> texels = ready.texels(ready.pose(0));

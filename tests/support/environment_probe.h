@@ -32,7 +32,6 @@ class Probe {
 #undef LOAD4
 #undef LOAD1
 
-  EnvironmentRecord environments[1];
   FrameRecord frames[1] = {};
   std::vector<glm::uvec4> environment_quads;
   std::vector<uint32_t> environment_cells;
@@ -40,10 +39,9 @@ class Probe {
 
  private:
   explicit Probe(const render::EnvironmentData& data)
-      : environments{data.record},
-        environment_quads(data.quads),
-        environment_cells(data.cells),
-        environment_map(data.map ? 1 : 0) {}
+      : environment_quads(data.quads), environment_cells(data.cells), environment_map(data.map ? 1 : 0) {
+    frames[0].environment = data.record;
+  }
 };
 
 }  // namespace environment_functions

@@ -16,7 +16,7 @@ std::vector<glm::vec3> slid_texels(const ReadyScene& ready, const std::vector<gl
   for (const glm::vec3& texel : texels) quads.emplace_back(texel, 1.0f);
   const render::Buffer geometry(*backend, {"geometry", quads.size(), 16});
   backend->upload(geometry.id(), std::as_bytes(std::span(quads)));
-  render::Detail detail(*backend, ready.assembly, ready.atlas);
+  render::Detail detail(*backend, ready.assembly, ready.atlas, {});
   detail.build(geometry, render::steepest_cone(camera));
   std::vector<uint32_t> collapses(2 * texels.size());
   backend->download(detail.collapses().id(), std::as_writable_bytes(std::span(collapses)), 0);

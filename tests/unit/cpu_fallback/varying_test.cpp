@@ -60,27 +60,27 @@ HWY_ATTR void wrap(std::span<const float> coordinates, uint32_t size, uint32_t h
   }
 }
 
-// For each xi of buffer 4 the direction chosen, its density, the radiance from there and from the other side,
-// and the density there: twelve words each in buffer 5.
+// For each xi of buffer 3 the direction chosen, its density, the radiance from there and from the other side,
+// and the density there: twelve words each in buffer 4.
 class WithFrames : public VaryingKernel<EmptyProbe> {
  public:
   using VaryingKernel<EmptyProbe>::VaryingKernel;
 
  protected:
-  Structs<FrameRecord> frames = structs<FrameRecord>(3);
+  Structs<FrameRecord> frames = structs<FrameRecord>(2);
 };
 class LookAround : public EnvironmentKernel<WithFrames, 0> {
  public:
   using EnvironmentKernel<WithFrames, 0>::EnvironmentKernel;
 
   HWY_ATTR void operator()() {
-    const vec4 xi = as_vec4(load_own(quads(4)));
+    const vec4 xi = as_vec4(load_own(quads(3)));
     const EnvironmentSample sample = sample_environment(vec2(xi.x, xi.y));
     const vec3 ahead = environment_radiance(sample.direction), across = sample.direction * -1.0f,
                behind = environment_radiance(across);
-    store_own(quads(5), as_bits(sample.direction, floatBitsToUint(sample.pdf)), 3, 0);
-    store_own(quads(5), as_bits(ahead, floatBitsToUint(environment_pdf(across))), 3, 1);
-    store_own(quads(5), as_bits(behind, 0u), 3, 2);
+    store_own(quads(4), as_bits(sample.direction, floatBitsToUint(sample.pdf)), 3, 0);
+    store_own(quads(4), as_bits(ahead, floatBitsToUint(environment_pdf(across))), 3, 1);
+    store_own(quads(4), as_bits(behind, 0u), 3, 2);
   }
 };
 HWY_ATTR void look_around(const CpuDispatch& dispatch) {
@@ -218,12 +218,8 @@ std::vector<glm::uvec4> looked_around(test::EnvironmentProbe& probe, const std::
     xi.emplace_back(layout::floatBitsToUint(pair.x), layout::floatBitsToUint(pair.y), 0, 0);
   }
   const auto words = [](auto* items) { return reinterpret_cast<uint32_t*>(items); };
-  uint32_t* const buffers[] = {words(probe.environments),
-                               words(probe.environment_quads.data()),
-                               probe.environment_cells.data(),
-                               words(probe.frames),
-                               words(xi.data()),
-                               words(results.data())};
+  uint32_t* const buffers[] = {words(probe.environment_quads.data()), probe.environment_cells.data(),
+                               words(probe.frames), words(xi.data()), words(results.data())};
   CpuDispatch dispatch;
   dispatch.buffers = buffers;
   dispatch.invocations = static_cast<uint32_t>(pairs.size());

@@ -59,7 +59,7 @@ inline void expect_equal(const Atlas& a, const Atlas& b) {
     const layout::ChartRecord &x = a.charts[i], &y = b.charts[i];
     EXPECT_TRUE(x.first_texel == y.first_texel && x.width == y.width && x.height == y.height &&
                 x.kind == y.kind && x.first_triangle == y.first_triangle && x.first_slot == y.first_slot &&
-                x.slot_count == y.slot_count && x.pad == y.pad)
+                x.slot_count == y.slot_count && x.first_emitter == y.first_emitter)
         << i;
   }
   EXPECT_EQ(a.texel_map, b.texel_map);

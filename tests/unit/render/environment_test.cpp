@@ -158,9 +158,9 @@ TEST(EnvironmentDensity, IntegratesToOne) {
   for (const scene::Scene& scene : scenes()) {
     EnvironmentProbe probe(scene);
     scene::Environment size;
-    size.width = probe.environments[0].width;
-    size.height = probe.environments[0].height;
-    const double turn = double(probe.environments[0].turn) - 0.5;
+    size.width = probe.frames[0].environment.width;
+    size.height = probe.frames[0].environment.height;
+    const double turn = double(probe.frames[0].environment.turn) - 0.5;
     double sum = 0;
     for (uint32_t row = 0; row <= size.height; ++row) {
       for (uint32_t column = 0; column < size.width; ++column) {
@@ -238,8 +238,9 @@ TEST(EnvironmentSamples, HaveUnitLengthAndTheDensityOfTheirDirection) {
       // Only at the border of a cell.
       const auto place = probe.environment_place(sample.direction);
       const auto from_border = [](float x) { return std::min(x, 1 - x); };
-      ASSERT_LT(std::min(from_border(place.right), from_border(place.lower)),
-                4e-7f * float(std::max(probe.environments[0].width, probe.environments[0].height)));
+      ASSERT_LT(
+          std::min(from_border(place.right), from_border(place.lower)),
+          4e-7f * float(std::max(probe.frames[0].environment.width, probe.frames[0].environment.height)));
     }
     EXPECT_LT(other, count / 1000) << scene.name;
   }

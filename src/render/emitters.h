@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Surfaces that shine, on the device, and the pass that draws points of them (layout/emitters.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lodestone/render/backend.h"
+#include "lodestone/render/emitter_data.h"
+
+namespace lodestone::render {
+
+class Emitters {
+ public:
+  // Of `rays` rays. `texels`: of each emitter of `data`, in the geometry image that points are drawn in.
+  Emitters(Backend& backend, const EmitterData& data, const std::vector<uint32_t>& texels, uint64_t rays);
+
+  // Of each object in its own space, in the rest pose.
+  const std::vector<double>& powers() const { return powers_; }
+
+  const Buffer& numbers() const { return numbers_; }
+  const Buffer& texels() const { return texels_; }
+  const Buffer& objects() const { return objects_; }
+  const Buffer& drawn() const { return drawn_; }  // layout::DrawnPoint, one a ray
+  uint32_t half_step() const { return half_step_; }
+
+ private:
+  std::vector<double> powers_;
+  uint32_t half_step_ = 0;  // layout::EmitterPush
+  Buffer numbers_, texels_, objects_, drawn_;
+};
+
+}  // namespace lodestone::render
