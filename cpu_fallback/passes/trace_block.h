@@ -112,6 +112,13 @@ class TraceBlock : public NodesKernel<Probe, 10> {
     return layout::max_component(hi - lo) < tree(first).extent() * (1.0f / 64);
   }
 
+  // Whether it is worth a look if 64 rays from `first` on go together, through one object and to their
+  // nearest hits.
+  bool may_be_a_beam(uint32_t first) const {
+    return this->push_.resume == 0 && !any_hit() && !this->instanced() && !moves() &&
+           origin(first) == origin(first + 1);
+  }
+
   const float* ray_quads(uint32_t index) const {
     return reinterpret_cast<const float*>(this->rays_.words) + 8 * uint64_t(index);
   }
@@ -137,11 +144,23 @@ class TraceBlock : public NodesKernel<Probe, 10> {
   void finish(uint32_t index, bool is_ray, layout::Hit hit, uint32_t visits) {
     if (any_hit() && hit.primitive != layout::no_index) hit = {0, 0, 0, 0};
     this->hits_.store4(index, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
-    this->states_.store4(index, {0, 0, layout::trace_finished, layout::no_index});
+    if (this->resumable()) this->states_.store4(index, {0, 0, layout::trace_finished, layout::no_index});
     if (this->constant(1) != 0) this->steps_.store1(index, visits);
     this->probe.read(8);
-    this->probe.write(8);
+    this->probe.write(this->resumable() ? 8 : 4);
     if (!this->instanced() && this->push_.resume == 0 && is_ray) this->probe.ray();
+  }
+
+  // What finish does, of `count` rays from `first` on, but for their hits; returns where these are to be
+  // stored.
+  uint32_t* finish_beam(uint32_t first, uint32_t count, uint32_t visits) {
+    for (uint32_t i = first; this->resumable() && i < first + count; ++i)
+      this->states_.store4(i, {0, 0, layout::trace_finished, layout::no_index});
+    for (uint32_t i = first; this->constant(1) != 0 && i < first + count; ++i) this->steps_.store1(i, visits);
+    this->probe.read(8 * count);
+    this->probe.write((this->resumable() ? 8 : 4) * count);
+    for (uint32_t i = 0; Probe::counting && i < count; ++i) this->probe.ray();
+    return this->hits_.words + 4 * uint64_t(first);
   }
 
   // One node was read and tested against the `rays` rays of a packet, of which `active` enter it.
@@ -153,6 +172,18 @@ class TraceBlock : public NodesKernel<Probe, 10> {
       c.bytes_read += 32;
       c.lane_steps += active;
       c.subgroup_steps += packet_rays;
+    }
+  }
+
+  // One record of 16 bounds was read and tested against so many rays at once.
+  void count_beam_record(uint32_t rays) {
+    if constexpr (Probe::counting) {
+      render::Counters& c = this->probe.counts;
+      c.node_visits += wide_fan;
+      c.box_tests += wide_fan;
+      c.bytes_read += sizeof(WideNode);
+      c.lane_steps += rays;
+      c.subgroup_steps += rays;
     }
   }
 

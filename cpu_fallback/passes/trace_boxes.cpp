@@ -54,7 +54,7 @@ class TraceBoxes : public TraceKernel<Probe, 9> {
       }
     }
     const bool finished = walk.depth == layout::walk_done || ray.tmax < 0.0f;
-    this->store(trails_, index, walk.trail);
+    if (this->resumable()) this->store(trails_, index, walk.trail);
     state.place =
         uvec4(walk.index, walk.levels,
               4 * walk.depth + (finished ? layout::trace_finished : layout::trace_unfinished), state.place.w);

@@ -73,6 +73,11 @@ class TraceKernel : public Kernel<Probe> {
       if (!instanced_ && !(ray.tmax < 0.0f)) this->probe.ray();  // else counted where it enters
       return true;
     }
+    if (push_.resume == 2) {
+      if (this->load(hits_, index).w == layout::unanswered) return true;
+      this->store(states_, index, {0, 0, layout::trace_finished, layout::no_index});
+      return false;
+    }
     state.place = this->load(states_, index);
     if (layout::trace_status(state.place) == layout::trace_restart) return true;
     const glm::uvec4 bits = this->load(hits_, index);
@@ -83,9 +88,11 @@ class TraceKernel : public Kernel<Probe> {
 
   void end_ray(uint32_t index, State state) {
     if (any_hit() && state.best.primitive != layout::no_index) state.best = {0, 0, 0, 0};
-    this->store(hits_, index, as_bits({state.best.t, state.best.u, state.best.v}, state.best.primitive));
-    this->store(states_, index, state.place);
-    if (layout::trace_status(state.place) == layout::trace_unfinished) this->add(pending_, 0, 1);
+    const bool unfinished = layout::trace_status(state.place) == layout::trace_unfinished;
+    const uint32_t primitive = !resumable() && unfinished ? layout::unanswered : state.best.primitive;
+    this->store(hits_, index, as_bits({state.best.t, state.best.u, state.best.v}, primitive));
+    if (resumable()) this->store(states_, index, state.place);
+    if (unfinished) this->add(pending_, 0, 1);
     if (this->constant(1) != 0) {
       this->store(steps_, index, (push_.resume != 0 ? this->load(steps_, index) : 0) + visits_);
     }
@@ -148,6 +155,7 @@ class TraceKernel : public Kernel<Probe> {
 
   bool any_hit() const { return any_hit_; }
   bool instanced() const { return instanced_; }
+  bool resumable() const { return resumable_; }
 
   Quads rays_ = this->quads(0), geometry_ = this->quads(1), hits_ = this->quads(2), states_ = this->quads(3);
   Words steps_ = this->words(4), pending_ = this->words(5);
@@ -162,7 +170,7 @@ class TraceKernel : public Kernel<Probe> {
   layout::Tolerance tolerance_{};
   bool any_hit_ = this->constant(0) != 0, instanced_ = this->constant(2) != 0;
   uint32_t segments_ = this->constant(3), visits_ = 0;
-  bool detailed_ = this->constant(4) != 0;
+  bool detailed_ = this->constant(4) != 0, resumable_ = this->constant(5) != 0;
 };
 
 // Those of single nodes: the hierarchy in 32 bits.

@@ -97,15 +97,16 @@ class TraceTile : public TraceKernel<Probe, 8> {
     while (left_ > 0) {
       Level& top = levels[height];
       uint32_t* nearest = std::min_element(top.keys, top.keys + tile_fan);
-      const bool exhausted = layout::key_beyond(*nearest, tmax_);
+      if (layout::key_beyond(*nearest, tmax_)) {  // nothing is left here
+        --left_;
+        if (height-- != 0) continue;
+        left_ -= 2;
+        return;
+      }
       const uint32_t node = 16 * top.node + (*nearest & 15);
       *nearest = layout::box_missed;
-      --left_;
+      left_ -= 2;
       this->count_step(tile_fan);
-      if (exhausted) {
-        if (height-- == 0) return;
-        continue;
-      }
       const uint32_t level = layout::tile_first_level(object_.depth) + 2 * height;
       layout::BoxSides boxes[tile_fan];
       load_boxes(level, node, boxes);
@@ -180,9 +181,12 @@ class TraceTile : public TraceKernel<Probe, 8> {
       const Group& group = groups_[i / tile_lanes];
       const layout::Hit& hit = group.best[i % tile_lanes];
       const bool done = in_time && !group.waits[i % tile_lanes];
-      Base::store(this->hits_, first_ + i, as_bits({hit.t, hit.u, hit.v}, hit.primitive));
-      Base::store(this->states_, first_ + i,
-                  uvec4(0, 0, done ? layout::trace_finished : layout::trace_restart, layout::no_index));
+      const uint32_t primitive = this->resumable() || done ? hit.primitive : layout::unanswered;
+      Base::store(this->hits_, first_ + i, as_bits({hit.t, hit.u, hit.v}, primitive));
+      if (this->resumable()) {
+        Base::store(this->states_, first_ + i,
+                    uvec4(0, 0, done ? layout::trace_finished : layout::trace_restart, layout::no_index));
+      }
       if (!done) ++again;
     }
     if (again != 0) this->add(this->pending_, 0, again);

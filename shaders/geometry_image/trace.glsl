@@ -21,6 +21,8 @@ layout(constant_id = 5) const uint segments = 0u;   // layout/motion.h; 0: nothi
 
 layout(constant_id = 6) const uint detailed = 0u;   // 1: levels of detail (layout/detail.h)
 
+layout(constant_id = 7) const uint resumable = 1u;  // 0: all from the root, and no states are kept
+
 uint node_visits = 0u;
 uint triangle_tests = 0u;
 uint subgroup_steps = 0u;
@@ -161,10 +163,16 @@ bool begin_ray(uint index, Ray ray, out Hit best, out uvec4 state) {
   best.v = 0.0;
   best.primitive = no_index;
   state = uvec4(0u, 0u, trace_unfinished, no_index);
-  if (push.resume != 0u) {
+  if (resumable != 0u && push.resume != 0u) {
+    uvec4 bits;
+    if (push.resume == 2u) {
+      LOAD4(bits, hits, index);
+      if (bits.w == unanswered) return true;
+      STORE4(states, index, uvec4(0u, 0u, trace_finished, no_index));
+      return false;
+    }
     LOAD4(state, states, index);
     if (trace_status(state) == trace_restart) return true;
-    uvec4 bits;
     LOAD4(bits, hits, index);
     best.t = uintBitsToFloat(bits.x);
     best.u = uintBitsToFloat(bits.y);
@@ -182,9 +190,11 @@ void end_ray(uint index, Ray ray, Hit best, uvec4 state) {
     best.v = 0.0;
     best.primitive = 0u;
   }
-  STORE4(hits, index, as_bits(vec3(best.t, best.u, best.v), best.primitive));
-  STORE4(states, index, state);
-  if (trace_status(state) == trace_unfinished) atomicAdd(pending[0], 1u);
+  bool unfinished = trace_status(state) == trace_unfinished;
+  uint primitive = resumable == 0u && unfinished ? unanswered : best.primitive;
+  STORE4(hits, index, as_bits(vec3(best.t, best.u, best.v), primitive));
+  if (resumable != 0u) STORE4(states, index, state);
+  if (unfinished) atomicAdd(pending[0], 1u);
   if (write_steps != 0u) {
     uint before = 0u;
     if (push.resume != 0u) LOAD1(before, steps, index);

@@ -114,7 +114,7 @@ void main() {
     }
   }
   bool finished = walk.depth == walk_done || ray.tmax < 0.0;
-  STORE4(trails, index, walk.trail);
+  if (resumable != 0u) STORE4(trails, index, walk.trail);
   state = uvec4(walk.index, walk.levels, 4u * walk.depth + (finished ? trace_finished : trace_unfinished), state.w);
   end_ray(index, ray, best, state);
 }

@@ -175,8 +175,9 @@ void store_group(Group group, uint first, bool in_time, inout uint again) {
   uint index = first + lane;
   if (index < push.rays) {
     bool done = in_time && !group.waits;
-    STORE4(hits, index, as_bits(vec3(group.best.t, group.best.u, group.best.v), group.best.primitive));
-    STORE4(states, index, uvec4(0u, 0u, done ? trace_finished : trace_restart, no_index));
+    uint primitive = resumable != 0u || done ? group.best.primitive : unanswered;
+    STORE4(hits, index, as_bits(vec3(group.best.t, group.best.u, group.best.v), primitive));
+    if (resumable != 0u) STORE4(states, index, uvec4(0u, 0u, done ? trace_finished : trace_restart, no_index));
     again += done ? 0u : 1u;
   }
 }
@@ -228,10 +229,18 @@ void main() {
       uint record_node = 0u;
       while (walking && !at_leaves) {
         uint nearest = lanes_min(box_min(even, odd));
-        bool exhausted = key_beyond(nearest, tmax);
+        while (walking && key_beyond(nearest, tmax)) {  // nothing is left here
+          even = even1; even1 = even2; even2 = even3; even3 = even4; even4 = even5; even5 = even6;
+          odd = odd1; odd1 = odd2; odd2 = odd3; odd3 = odd4; odd4 = odd5; odd5 = odd6;
+          node >>= 4u;
+          nearest = lanes_min(box_min(even, odd));
+          left -= 1u;
+          walking = height != 0u && left - 1u < limit;
+          height = height != 0u ? height - 1u : 0u;
+        }
         even = even == nearest ? box_missed : even;
         odd = odd == nearest ? box_missed : odd;
-        record_node = exhausted ? 0u : (node << 4u) | (nearest & 15u);
+        record_node = walking ? (node << 4u) | (nearest & 15u) : 0u;
         uint level = tile_first_level(object.depth) + 2u * height;  // of the 16 children
         // Four records side by side; of an odd tree's root, one.
         uint part = level == 1u ? 0u : lane >> 1u;
@@ -242,7 +251,7 @@ void main() {
         LOAD4(x, boxes, record);
         LOAD4(y, boxes, record + 1u);
         LOAD4(z, boxes, record + 2u);
-        count_step();
+        if (walking) count_step();
         bool second = (lane & 1u) != 0u;
         uint lo_x = second ? x.y : x.x;
         uint hi_x = second ? x.w : x.z;
@@ -260,20 +269,14 @@ void main() {
         }
         uint even_key = tile_key(even_box, cone, tmin, tmax, 2u * lane);
         uint odd_key = tile_key(odd_box, cone, tmin, tmax, 2u * lane + 1u);
-        at_leaves = !exhausted && level == object.depth;
-        if (exhausted) {
-          even = even1; even1 = even2; even2 = even3; even3 = even4; even4 = even5; even5 = even6;
-          odd = odd1; odd1 = odd2; odd2 = odd3; odd3 = odd4; odd4 = odd5; odd5 = odd6;
-          node >>= 4u;
-          walking = height != 0u;
-          height -= 1u;
-        } else if (!at_leaves) {
+        at_leaves = walking && level == object.depth;
+        if (walking && !at_leaves) {
           even6 = even5; even5 = even4; even4 = even3; even3 = even2; even2 = even1; even1 = even; even = even_key;
           odd6 = odd5; odd5 = odd4; odd4 = odd3; odd3 = odd2; odd2 = odd1; odd1 = odd; odd = odd_key;
           node = record_node;
           height += 1u;
         }
-        left -= 1u;
+        left -= 2u;  // every loop runs at least once on a device that runs both sides of every branch
         walking = walking && left - 1u < limit;
       }
       if (at_leaves) {
@@ -285,7 +288,7 @@ void main() {
         TEST(0, 1) TEST(2, 3) TEST(4, 5) TEST(6, 7)
         tmax = max2(max2(max2(group0.tmax, group1.tmax), max2(group2.tmax, group3.tmax)),
                     max2(max2(group4.tmax, group5.tmax), max2(group6.tmax, group7.tmax)));
-        left -= 9u;  // every loop runs at least once on a device that runs both sides of every branch
+        left -= 9u;
         walking = left - 1u < limit;
       }
     }

@@ -13,6 +13,9 @@ CONST uint trace_finished = 0u;
 CONST uint trace_unfinished = 1u;
 CONST uint trace_restart = 2u;  // from the root, with nothing hit (the ray's tmin has moved)
 CONST uint trace_judged = 3u;   // finished, and `mask` has found that its hit is one
+// Instead of a primitive: the ray's budget was spent. So say dispatches that keep no states, for which words
+// have to be stored one by one on a device that runs lanes as a vector.
+CONST uint unanswered = 0xfffffffeu;
 FN uvec1 trace_status(uvec4 state) {
   return state.z & 3u;
 }

@@ -189,7 +189,8 @@ FN Walk walk_on(Walk walk) {
 
 struct TracePush {
   uint rays;
-  uint resume;  // 0: all rays from the root; 1: those unfinished, from their states
+  uint resume;  // 0: all rays from the root; 1: those unfinished, from their states; 2: those unanswered,
+                // from the root
   uint budget;  // steps of a ray in this dispatch. Mesa before 23 stops a subgroup silently after 65,535 loop
                 // iterations: with 8 lanes and two nested loops a budget of 4,000 can never reach that.
   uint image_texels;  // where something moves (layout/motion.h): of a geometry image

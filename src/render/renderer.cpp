@@ -292,6 +292,7 @@ void Renderer::State::upload_cameras(const layout::FrameRecord& record, const st
 // the nearest hit has to be found each time, also for shadow rays. False: interrupted.
 bool Renderer::State::trace_masked(const RayBuffers& rays, uint32_t count, TraceQuery query,
                                    const Interrupted& interrupted) {
+  query.judged = materials.has_masks;
   if (materials.has_masks) query.any_hit = false;
   if (!trace(rays, count, query, interrupted)) return false;
   if (!materials.has_masks) return true;

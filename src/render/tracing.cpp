@@ -217,14 +217,14 @@ uint32_t Tracing::take_pending() {
 }
 
 void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count,
-                       const TraceQuery& query, bool resume, const Buffer* roots) {
+                       const TraceQuery& query, const Round& round, const Buffer* roots) {
   std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
                                    rays.states.id(), rays.steps.id(), pending_.id()};
-  const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u,
-                                                       roots != nullptr ? 1u : 0u, segments_,
-                                                       detail_ != nullptr ? 1u : 0u};
+  const std::array<uint32_t, pass_constants> constants{
+      query.any_hit ? 1u : 0u,      query.steps ? 1u : 0u,    roots != nullptr ? 1u : 0u, segments_,
+      detail_ != nullptr ? 1u : 0u, round.resumable ? 1u : 0u};
   const bool scattered = detail_ != nullptr && query.scattered;
-  layout::TracePush push{count,         resume ? 1u : 0u,   loop_budget_,
+  layout::TracePush push{count,         round.resume,       loop_budget_,
                          image_texels_, objects_a_segment_, scattered ? 1u : 0u,
                          camera_.apex,  camera_.width,      camera_.spread};
   // What the constants leave out nothing reads; any words and quads will do.
@@ -260,7 +260,8 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   }
 }
 
-void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count) {
+void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count,
+                             const Round& round) {
   const uint32_t tiles = (count + layout::tile_rays - 1) / layout::tile_rays;
   layout::TracePush push{};
   push.rays = count;
@@ -269,22 +270,23 @@ void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uin
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
        boxes_.id(), leaf_map_.id(), objects_.id(), rays.steps.id(), rays.steps.id(), rays.steps.id(),
        geometry.id(), geometry.id(), geometry.id()},
-      push, tiles * layout::tile_lanes);
+      push, tiles * layout::tile_lanes, {0, 0, 0, 0, 0, round.resumable ? 1u : 0u});
 }
 
 bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
                     const Interrupted& interrupted, const Buffer* roots) {
   const bool tiles = traversal_ == Traversal::tile && query.common_origin && !query.any_hit && !query.steps;
-  bool resume = query.restarted;
+  // Most rays come to their end in the first dispatch, which need not keep what only the next ones read.
+  Round round{query.restarted ? 1u : 0u, query.restarted || query.judged || query.steps};
   do {
     if (interrupted && interrupted()) return false;
     clear_pending();
-    if (tiles && !resume) {
-      dispatch_tiles(geometry, rays, count);  // what does not go together is left to the next dispatch
+    if (tiles && round.resume == 0) {
+      dispatch_tiles(geometry, rays, count, round);  // what does not go together is left to the next
     } else {
-      dispatch(geometry, rays, count, query, resume, roots);
+      dispatch(geometry, rays, count, query, round, roots);
     }
-    resume = true;
+    round = {round.resumable ? 1u : 2u, true};
   } while (take_pending() != 0);
   return true;
 }

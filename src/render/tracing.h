@@ -46,6 +46,7 @@ struct TraceQuery {
   bool shadow = false;            // statistics call it `occlude`
   bool common_origin = false;     // runs of 64 rays start from one point and go nearly the same way
   bool restarted = false;         // only those that `mask` has sent on
+  bool judged = false;            // `mask` looks at the rays' states afterwards
   const Buffer* times = nullptr;  // of the rays, where something moves
   bool scattered = false;         // what has been scattered has a cone of its own, where there is detail
   const Buffer* cones = nullptr;  // and these are the cones
@@ -106,9 +107,14 @@ class Tracing {
   bool uses_boxes() const {
     return traversal_ == Traversal::tile || (traversal_ == Traversal::wide && !on_cpu_);
   }
-  void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count);
+  // What a dispatch is about (layout::TracePush::resume), and whether rays keep their states.
+  struct Round {
+    uint32_t resume = 0;
+    bool resumable = true;
+  };
+  void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const Round& round);
   void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
-                bool resume, const Buffer* roots);
+                const Round& round, const Buffer* roots);
 
   Backend& backend_;
   const Buffer& leaf_map_;
