@@ -33,12 +33,31 @@ HWY_ATTR inline Floats edge_function(const Vec3& p, const Vec3& q) {
   return hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
 }
 
+// Hits of `rays` rays so far, structure of arrays; u and v are these over `sum`, which one division in the
+// end says as well as one a hit.
+template <uint32_t rays>
+struct BestHits {
+  alignas(64) float t[rays], u[rays], v[rays], sum[rays];
+  alignas(64) uint32_t primitive[rays];
+
+  HWY_ATTR void begin(uint32_t lane, Floats tmax) {
+    const Lanes d;
+    const hn::RebindToUnsigned<Lanes> du;
+    hn::Store(tmax, d, t + lane);
+    hn::Store(hn::Zero(d), d, u + lane);
+    hn::Store(hn::Zero(d), d, v + lane);
+    hn::Store(hn::Set(d, 1.0f), d, sum + lane);
+    hn::Store(hn::Set(du, layout::no_index), du, primitive + lane);
+  }
+};
+
 // The packet's rays and best hits, structure of arrays.
 struct Packet {
   alignas(64) float origin[3][packet_rays], shear[3][packet_rays], inverse[3][packet_rays];
   alignas(64) float near_origin[3][packet_rays], far_origin[3][packet_rays];
-  alignas(64) float tmin[packet_rays], t[packet_rays], u[packet_rays], v[packet_rays];
-  alignas(64) uint32_t primitive[packet_rays], axis[packet_rays];
+  alignas(64) float tmin[packet_rays];
+  BestHits<packet_rays> best;
+  alignas(64) uint32_t axis[packet_rays];
   bool is_ray[packet_rays];
 };
 
@@ -51,8 +70,27 @@ HWY_ATTR inline Vec3 load3(const float (&a)[3][packet_rays], uint32_t lane) {
 struct QuadTest {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
-  Floats tmin, enter, best_t, best_u, best_v;
+  Floats tmin, enter, best_t, best_u, best_v, best_sum;
   Ids best_primitive;
+
+  template <uint32_t rays>
+  HWY_ATTR QuadTest(const BestHits<rays>& best, uint32_t lane, Floats ray_tmin, Floats quad_enter)
+      : tmin(ray_tmin),
+        enter(quad_enter),
+        best_t(hn::Load(d, best.t + lane)),
+        best_u(hn::Load(d, best.u + lane)),
+        best_v(hn::Load(d, best.v + lane)),
+        best_sum(hn::Load(d, best.sum + lane)),
+        best_primitive(hn::Load(du, best.primitive + lane)) {}
+
+  template <uint32_t rays>
+  HWY_ATTR void store(BestHits<rays>& best, uint32_t lane) const {
+    hn::Store(best_t, d, best.t + lane);
+    hn::Store(best_u, d, best.u + lane);
+    hn::Store(best_v, d, best.v + lane);
+    hn::Store(best_sum, d, best.sum + lane);
+    hn::Store(best_primitive, du, best.primitive + lane);
+  }
 
   HWY_ATTR void accept(const Vec3& p0, const Vec3& p1, const Vec3& p2, Floats w0, Floats w1, Floats w2,
                        Mask entered, uint32_t primitive) {
@@ -69,8 +107,9 @@ struct QuadTest {
     const Mask lower = hn::RebindMask(d, hn::Lt(ids, best_primitive));
     hit = hn::And(hit, hn::Or(hn::Lt(t, best_t), hn::And(hn::Eq(t, best_t), lower)));
     best_t = hn::IfThenElse(hit, t, best_t);
-    best_u = hn::IfThenElse(hit, hn::Div(w1, sum), best_u);
-    best_v = hn::IfThenElse(hit, hn::Div(w2, sum), best_v);
+    best_u = hn::IfThenElse(hit, w1, best_u);
+    best_v = hn::IfThenElse(hit, w2, best_v);
+    best_sum = hn::IfThenElse(hit, sum, best_sum);
     best_primitive = hn::IfThenElse(hn::RebindMask(du, hit), ids, best_primitive);
   }
 };
@@ -103,20 +142,10 @@ HWY_ATTR inline void test_quad(Block& block, const TraceTree& tree, Packet& pack
   const Vec3 a = shearing(block.texel(texel)), b = shearing(block.texel(texel + 1));
   const Vec3 c = shearing(block.texel(texel + stride)), e = shearing(block.texel(texel + stride + 1));
   const Floats bc = edge_function(b, c);
-  QuadTest test{d,
-                du,
-                hn::Load(d, packet.tmin + lane),
-                enter,
-                hn::Load(d, packet.t + lane),
-                hn::Load(d, packet.u + lane),
-                hn::Load(d, packet.v + lane),
-                hn::Load(du, packet.primitive + lane)};
+  QuadTest test(packet.best, lane, hn::Load(d, packet.tmin + lane), enter);
   test.accept(a, b, c, bc, edge_function(c, a), edge_function(a, b), entered, 2 * texel);
   test.accept(e, c, b, hn::Neg(bc), edge_function(b, e), edge_function(e, c), entered, 2 * texel + 1);
-  hn::Store(test.best_t, d, packet.t + lane);
-  hn::Store(test.best_u, d, packet.u + lane);
-  hn::Store(test.best_v, d, packet.v + lane);
-  hn::Store(test.best_primitive, du, packet.primitive + lane);
+  test.store(packet.best, lane);
   if (Block::counting) block.count_quad(static_cast<uint32_t>(hn::CountTrue(d, entered)));
 }
 
@@ -140,9 +169,10 @@ HWY_ATTR inline void load_packet(const Block& block, float extent, uint32_t firs
     }
     packet.tmin[lane] = ray.tmin;
     packet.is_ray[lane] = !(ray.tmax < 0.0f);
-    packet.t[lane] = ray.tmax;
-    packet.u[lane] = packet.v[lane] = 0;
-    packet.primitive[lane] = layout::no_index;
+    packet.best.t[lane] = ray.tmax;
+    packet.best.u[lane] = packet.best.v[lane] = 0;
+    packet.best.sum[lane] = 1;
+    packet.best.primitive[lane] = layout::no_index;
   }
 }
 
@@ -175,7 +205,7 @@ HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) 
       const Floats enter = hn::Max(hn::Max(hn::Mul(from3.x, inverse.x), hn::Mul(from3.y, inverse.y)),
                                    hn::Max(hn::Mul(from3.z, inverse.z), hn::Load(d, packet.tmin + lane)));
       const Floats exit = hn::Min(hn::Min(hn::Mul(to3.x, inverse.x), hn::Mul(to3.y, inverse.y)),
-                                  hn::Min(hn::Mul(to3.z, inverse.z), hn::Load(d, packet.t + lane)));
+                                  hn::Min(hn::Mul(to3.z, inverse.z), hn::Load(d, packet.best.t + lane)));
       const Mask entered = hn::Le(enter, exit);
       if (hn::AllFalse(d, entered)) continue;
       inside = true;
@@ -192,8 +222,9 @@ HWY_ATTR inline void trace_packet(Block& block, uint32_t first, uint32_t count) 
                            : layout::walk_on(walk);
   }
   for (uint32_t i = 0; i < count; ++i) {
-    block.finish(first + i, packet.is_ray[i], {packet.t[i], packet.u[i], packet.v[i], packet.primitive[i]},
-                 visits);
+    const auto& best = packet.best;
+    block.finish(first + i, packet.is_ray[i],
+                 {best.t[i], best.u[i] / best.sum[i], best.v[i] / best.sum[i], best.primitive[i]}, visits);
   }
 }
 

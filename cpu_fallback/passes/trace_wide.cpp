@@ -12,18 +12,23 @@
 
 #include <hwy/highway.h>
 
+#include "lodestone/cpu_fallback/passes/beam-inl.h"
 #include "lodestone/cpu_fallback/passes/packet-inl.h"
 #include "lodestone/cpu_fallback/passes/single_ray-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 
-// Rays [begin, end) of the dispatch; `begin` is a multiple of 16.
+// Rays [begin, end) of the dispatch; `begin` is a multiple of 64.
 template <class Block>
 HWY_ATTR void trace_rays(Block& block, uint32_t begin, uint32_t end) {
   uint32_t singles[trace_grain];
   uint32_t size = 0;
   for (uint32_t first = begin; first < end; first += packet_rays) {
+    if (first % layout::tile_rays == 0 && first + layout::tile_rays <= end && trace_beam(block, first)) {
+      first += layout::tile_rays - packet_rays;
+      continue;
+    }
     const uint32_t count = std::min(packet_rays, end - first);
     if (block.coherent(first, count)) {
       trace_packet(block, first, count);

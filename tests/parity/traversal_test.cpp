@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "lodestone/layout/tile.h"
 #include "lodestone/test_support/devices.h"
@@ -185,6 +186,16 @@ TEST_F(Traversals, AgreeOnFlatSurfacesFromFarAway) {
 TEST_F(Traversals, AgreeAtEveryVectorWidth) {
   const ReadyScene ready(grid_sphere(48));
   Rays rays = primary_rays({1.5f, 1, 3}, {0, 0, 0}, 0.4f, 64);
+  // From one point through vertices and the middles of edges, as many side by side as go together; some of
+  // them are no rays.
+  const glm::vec3 eye(1.5f, 1, 3);
+  const std::vector<glm::vec3> texels = ready.texels(ready.pose(0));
+  for (size_t i = 0; i + 1 < texels.size(); ++i) {
+    add_ray(rays, eye, texels[i] - eye);
+    add_ray(rays, eye, 0.5f * (texels[i] + texels[i + 1]) - eye);
+    if (i % 500 == 0) rays.back().w = -1;
+    if (i % 700 == 0) rays.back().x = std::numeric_limits<float>::quiet_NaN();
+  }
   const Rays more = random_rays({-1, -1, -1}, {1, 1, 1}, 4000, 9);
   rays.insert(rays.end(), more.begin(), more.end());
   const auto expected = hits_of(ready, render::Traversal::threaded, rays);

@@ -11,7 +11,7 @@ Contender::Contender(const ReadyScene& ready, const std::string& device,
                      const render::BackendOptions& options, const std::string& traversal)
     : device_(device), backend_(open(device, options)) {
   render::Settings settings;
-  settings.width = settings.height = 8;
+  settings.width = settings.height = 512;  // as many pixels as there are rays, for `auto`
   for (const auto each : {render::Traversal::threaded, render::Traversal::octant, render::Traversal::wide,
                           render::Traversal::tile}) {
     if (traversal == to_string(each)) settings.traversal = each;
