@@ -42,18 +42,6 @@ Mesh box(const std::string& name, const glm::vec3& half, int cells, const std::a
   return mesh;
 }
 
-Mesh ball(const std::string& name, int cells, uint32_t material) {
-  Mesh mesh;
-  mesh.name = name;
-  const BoxLattice lattice(glm::ivec3{cells});
-  for (const glm::ivec3& point : lattice.points())
-    mesh.positions.push_back(snap(cube_sphere_direction(lattice, point)));
-  mesh.normals = mesh.positions;
-  for (const BoxLattice::Face face : BoxLattice::faces) add_grid(mesh, lattice.chart(face));
-  add_part(mesh, 0, material);
-  return mesh;
-}
-
 // Blocks of colours on black.
 Image test_card() {
   constexpr std::array<std::array<uint8_t, 3>, 4> bars = {

@@ -9,20 +9,7 @@
 namespace lodestone::scene::builtin {
 namespace {
 
-// A unit sphere of six charts of `cells` x `cells` quads that share the vertices of their borders.
-Mesh sphere(const std::string& name, int cells, uint32_t material) {
-  Mesh mesh;
-  mesh.name = name;
-  const BoxLattice lattice(glm::ivec3{cells});
-  for (const glm::ivec3& point : lattice.points())
-    mesh.positions.push_back(snap(cube_sphere_direction(lattice, point)));
-  mesh.normals = mesh.positions;
-  for (const BoxLattice::Face face : BoxLattice::faces) add_grid(mesh, lattice.chart(face));
-  add_part(mesh, 0, material);
-  return mesh;
-}
-
-// The same with a texture square on every face: border vertices are doubled, equal but for their coordinates.
+// A ball with a texture square on every face: border vertices are doubled, equal but for their coordinates.
 Mesh textured_sphere(const std::string& name, int cells, uint32_t material) {
   Mesh mesh;
   mesh.name = name;
@@ -121,12 +108,12 @@ Scene make_spheres() {
     return add_mesh(scene, std::move(mesh), none, glm::vec3(at.x, radius, at.y), glm::vec3(radius));
   };
   add_mesh(scene, floor_mesh(32, 4, grey));
-  place(sphere("gold", 16, gold), {-0.9f, -0.6f}, 1);
+  place(ball("gold", 16, gold), {-0.9f, -0.6f}, 1);
   place(textured_sphere("checkered", 12, checkered), {1.1f, -0.3f}, 0.7f);
-  Mesh ball = sphere("ball", 12, rubber);
-  add_squash(ball);
-  const uint32_t ball_node = place(std::move(ball), {0.3f, 1.1f}, 0.4f);
-  place(sphere("chalk", 8, chalk), {-0.7f, 1.3f}, 0.25f);
+  Mesh bouncing = ball("ball", 12, rubber);
+  add_squash(bouncing);
+  const uint32_t ball_node = place(std::move(bouncing), {0.3f, 1.1f}, 0.4f);
+  place(ball("chalk", 8, chalk), {-0.7f, 1.3f}, 0.25f);
 
   Camera camera;
   camera.name = "Overview";

@@ -157,4 +157,16 @@ void add_target(Mesh& mesh, MorphTarget target) {
   mesh.weights.push_back(0);
 }
 
+Mesh ball(const std::string& name, int cells, uint32_t material) {
+  Mesh mesh;
+  mesh.name = name;
+  const BoxLattice lattice(glm::ivec3{cells});
+  for (const glm::ivec3& point : lattice.points())
+    mesh.positions.push_back(snap(cube_sphere_direction(lattice, point)));
+  mesh.normals = mesh.positions;
+  for (const BoxLattice::Face face : BoxLattice::faces) add_grid(mesh, lattice.chart(face));
+  add_part(mesh, 0, material);
+  return mesh;
+}
+
 }  // namespace lodestone::scene::builtin

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,9 @@ class BoxLattice {
 
 // The direction of a surface point of a cube lattice, spread evenly: the corners of a cube-sphere.
 glm::vec3 cube_sphere_direction(const BoxLattice& lattice, glm::ivec3 point);
+
+// A unit sphere of six charts of `cells` x `cells` quads that share the vertices of their borders.
+Mesh ball(const std::string& name, int cells, uint32_t material);
 
 // A tube of `columns` samples around (even) and `rows` along, closed by zipping the first and the last row
 // onto themselves: one chart without a pole. Sample (column, row) and (columns - column, row) of a zipped row
