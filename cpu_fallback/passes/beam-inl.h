@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Sixty-four rays from one origin, of one octant and mostly along one axis, as the camera's are: through the
-// tree of 16 boxes a record (wide_nodes.h) they go together, as an interval of directions (layout/tile.h); at
-// a leaf first those of each bundle of 16 are looked at, then the rays. Lane by lane the arithmetic is that
-// of layout/trace.h. Included once a SIMD target.
+// Sixty-four rays from one origin, as the camera's are. Those of one octant and mostly along one axis go
+// together through the tree of 16 boxes a record (wide_nodes.h), as an interval of directions
+// (layout/tile.h); at a leaf first those of each bundle of 16 are looked at, then the rays. A block of
+// several kinds is taken through once for each. Lane by lane the arithmetic is that of layout/trace.h.
+// Included once a SIMD target.
 
 #if defined(LODESTONE_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LODESTONE_BEAM_INL_H_
@@ -24,13 +25,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 
 template <class Block>
-inline bool trace_beam(Block&, uint32_t) {
+inline bool trace_beams(Block&, uint32_t, uint32_t*, uint32_t&) {
   return false;  // a ray is as wide as a vector
 }
 
 #else
 
 constexpr uint32_t beam_rays = layout::tile_rays, beam_bundles = beam_rays / packet_rays;
+constexpr int fewest_together = 8;  // rays; fewer go each by itself
 
 // What layout::Cone is made of, and the farthest hit; of some of a beam's rays.
 struct Reach {
@@ -75,8 +77,8 @@ HWY_ATTR inline Vec3 turned(const Vec3& v, uint32_t axis) {
   return axis == 0 ? Vec3{v.y, v.z, v.x} : axis == 1 ? Vec3{v.z, v.x, v.y} : v;
 }
 
-// Whether all of these are rays that go with the first one of the beam.
-HWY_ATTR inline bool alike(const RayLanes& rays, const layout::Ray& lead, const Beam& beam) {
+// Which of these are rays that go with the first one of the beam.
+HWY_ATTR inline Mask alike(const RayLanes& rays, const layout::Ray& lead, const Beam& beam) {
   const Lanes d;
   const auto zero = hn::Zero(d);
   const Vec3 size{hn::Abs(rays.direction.x), hn::Abs(rays.direction.y), hn::Abs(rays.direction.z)};
@@ -98,19 +100,20 @@ HWY_ATTR inline bool alike(const RayLanes& rays, const layout::Ray& lead, const 
                             hn::And(signed_alike(rays.direction.y, 2), signed_alike(rays.direction.z, 4))));
   // layout::make_shear takes the first of the largest.
   const Mask x = hn::And(hn::Ge(size.x, size.y), hn::Ge(size.x, size.z)), y = hn::Ge(size.y, size.z);
-  good = hn::And(good, beam.axis == 0   ? x
+  return hn::And(good, beam.axis == 0   ? x
                        : beam.axis == 1 ? hn::AndNot(x, y)
                                         : hn::AndNot(hn::Or(x, y), hn::Eq(zero, zero)));
-  return hn::AllTrue(d, good);
 }
 
-// False: these rays do not go together.
+// Of rays first + 0..63 those of the bits `waiting` that go together with the lowest of them; returns their
+// bits, none where that is no ray.
 template <class Block>
-HWY_ATTR inline bool load_beam(const Block& block, const TraceTree& tree, uint32_t first, Beam& beam) {
+HWY_ATTR inline uint64_t load_beam(const Block& block, const TraceTree& tree, uint32_t first,
+                                   uint64_t waiting, Beam& beam) {
   const Lanes d;
   const auto width = static_cast<uint32_t>(hn::Lanes(d));
-  const layout::Ray lead = block.ray(first);
-  if (lead.tmax < 0.0f) return false;
+  const layout::Ray lead = block.ray(first + static_cast<uint32_t>(std::countr_zero(waiting)));
+  if (!(lead.tmax >= 0.0f && lead.tmin >= 0.0f)) return 0;
   const layout::Slabs slabs = layout::make_slabs(lead, tree.extent());
   beam.origin = lead.origin;
   beam.near_origin = slabs.near_origin;
@@ -119,18 +122,24 @@ HWY_ATTR inline bool load_beam(const Block& block, const TraceTree& tree, uint32
   beam.octant = slabs.octant;
   beam.axis = layout::make_shear(lead).axis;
   const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least_size = hn::Set(d, 0x1p-40f);
+  const auto largest = hn::Set(d, layout::infinity_bits_as_max), nothing = hn::Set(d, -1.0f);
+  uint64_t going = 0;
   beam.reach = {{glm::vec3(layout::infinity_bits_as_max), glm::vec3(0)}, -1};
   for (uint32_t b = 0; b < beam_bundles; ++b) {
     Bundle& bundle = beam.bundles[b];
-    auto lo_x = hn::Set(d, layout::infinity_bits_as_max), lo_y = lo_x, lo_z = lo_x;
-    auto hi_x = zero, hi_y = zero, hi_z = zero, tmax = hn::Set(d, -1.0f);
+    auto lo_x = largest, lo_y = largest, lo_z = largest, hi_x = zero, hi_y = zero, hi_z = zero,
+         tmax = nothing;
     for (uint32_t lane = 0; lane < packet_rays; lane += width) {
-      const RayLanes rays = load_rays(block.ray_quads(first + b * packet_rays + lane));
-      if (!alike(rays, lead, beam)) return false;
+      const uint32_t number = b * packet_rays + lane;
+      const float* quads = block.ray_quads(first + number);
+      for (uint32_t i = 0; i < width; i += 2) hwy::Prefetch(quads + 8 * (beam_rays + i));  // the next block's
+      const RayLanes rays = load_rays(quads);
+      const Mask goes = hn::And(alike(rays, lead, beam), bit_mask(d, waiting >> number));
+      going |= uint64_t(mask_bits(d, goes)) << number;
       const auto along = [&](Floats direction, int axis, auto& lo, auto& hi) HWY_ATTR {
         const auto size = hn::Div(one, hn::Max(hn::Abs(direction), least_size));
-        lo = hn::Min(lo, size);
-        hi = hn::Max(hi, size);
+        lo = hn::Min(lo, hn::IfThenElse(goes, size, largest));
+        hi = hn::Max(hi, hn::IfThenElse(goes, size, zero));
         hn::Store(hn::IfThenElse(hn::Lt(direction, zero), hn::Neg(size), size), d,
                   bundle.inverse[axis] + lane);
       };
@@ -141,8 +150,10 @@ HWY_ATTR inline bool load_beam(const Block& block, const TraceTree& tree, uint32
       hn::Store(hn::Div(to.x, to.z), d, bundle.shear[0] + lane);
       hn::Store(hn::Div(to.y, to.z), d, bundle.shear[1] + lane);
       hn::Store(hn::Div(one, to.z), d, bundle.shear[2] + lane);
-      tmax = hn::Max(tmax, rays.tmax);
-      bundle.best.begin(lane, rays.tmax);
+      // The others enter nothing: tmin is not negative.
+      const auto end = hn::IfThenElse(goes, rays.tmax, nothing);
+      tmax = hn::Max(tmax, end);
+      bundle.best.begin(lane, end);
     }
     const auto least = [&](Floats v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(d, v)); };
     const auto most = [&](Floats v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(d, v)); };
@@ -154,7 +165,7 @@ HWY_ATTR inline bool load_beam(const Block& block, const TraceTree& tree, uint32
   }
   const WideGrid& grid = tree.grid();
   beam.axes = layout::make_tile_axes(slabs, {glm::vec3(grid.base), 0, glm::vec3(grid.step), 0});
-  return true;
+  return going;
 }
 
 // layout::cone_enters, of a record's children.
@@ -292,13 +303,9 @@ HWY_ATTR inline void test_leaves(Block& block, const TraceTree& tree, Beam& beam
   }
 }
 
-// Rays first + 0..63 to their end; false: they do not go together, and nothing is done.
+// Through the tree; returns how many records were read.
 template <class Block>
-HWY_ATTR inline bool trace_beam(Block& block, uint32_t first) {
-  if (!block.may_be_a_beam(first)) return false;
-  const TraceTree tree = block.tree(first);
-  Beam beam;
-  if (!load_beam(block, tree, first, beam)) return false;
+HWY_ATTR inline uint32_t trace_beam(Block& block, const TraceTree& tree, Beam& beam) {
   const uint32_t first_leaf = tree.first_leaf_record(), end = tree.end_record();
   Stack stack;
   uint32_t record = 0, visits = 0;
@@ -326,9 +333,12 @@ HWY_ATTR inline bool trace_beam(Block& block, uint32_t first) {
     bool waits = false;
     do waits = stack.pop(beam.reach.tmax, record);
     while (waits && record >= end);
-    if (!waits) break;
+    if (!waits) return visits;
   }
-  uint32_t* hits = block.finish_beam(first, beam_rays, visits);
+}
+
+// The hits of rays first + 0..63, all of which have gone together.
+HWY_ATTR inline void store_hits(const Beam& beam, uint32_t* hits) {
   const Lanes d;
   const hn::RebindToUnsigned<Lanes> du;
   for (const Bundle& bundle : beam.bundles) {
@@ -342,6 +352,44 @@ HWY_ATTR inline bool trace_beam(Block& block, uint32_t first) {
       hits += 4 * hn::Lanes(d);
     }
   }
+}
+
+// Rays first + 0..63 to their end, but for those that go with few others: these are added to `singles`.
+// False: most do not go together, and nothing is done.
+template <class Block>
+HWY_ATTR inline bool trace_beams(Block& block, uint32_t first, uint32_t* singles, uint32_t& size) {
+  if (!block.may_be_a_beam(first)) return false;
+  const TraceTree tree = block.tree(first);
+  Beam beam;
+  uint64_t waiting = ~uint64_t{0};
+  const auto go_alone = [&](uint64_t rays) {
+    for (; rays != 0; rays &= rays - 1)
+      singles[size++] = first + static_cast<uint32_t>(std::countr_zero(rays));
+  };
+  for (uint32_t kind = 0; kind < layout::tile_kinds && waiting != 0; ++kind) {
+    uint64_t going = load_beam(block, tree, first, waiting, beam);
+    if (kind == 0 && std::popcount(going) < 2 * fewest_together) return false;
+    if (going == 0) going = waiting & (~waiting + 1);
+    waiting &= ~going;
+    if (std::popcount(going) < fewest_together) {
+      go_alone(going);
+      continue;
+    }
+    const uint32_t visits = trace_beam(block, tree, beam);
+    if (going == ~uint64_t{0}) {
+      store_hits(beam, block.finish_beam(first, beam_rays, visits));
+      return true;
+    }
+    for (; going != 0; going &= going - 1) {
+      const auto number = static_cast<uint32_t>(std::countr_zero(going)), lane = number % packet_rays;
+      const BestHits<packet_rays>& best = beam.bundles[number / packet_rays].best;
+      block.finish(
+          first + number, true,
+          {best.t[lane], best.u[lane] / best.sum[lane], best.v[lane] / best.sum[lane], best.primitive[lane]},
+          visits);
+    }
+  }
+  go_alone(waiting);
   return true;
 }
 

@@ -25,7 +25,8 @@ HWY_ATTR void trace_rays(Block& block, uint32_t begin, uint32_t end) {
   uint32_t singles[trace_grain];
   uint32_t size = 0;
   for (uint32_t first = begin; first < end; first += packet_rays) {
-    if (first % layout::tile_rays == 0 && first + layout::tile_rays <= end && trace_beam(block, first)) {
+    if (first % layout::tile_rays == 0 && first + layout::tile_rays <= end &&
+        trace_beams(block, first, singles, size)) {
       first += layout::tile_rays - packet_rays;
       continue;
     }
