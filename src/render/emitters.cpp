@@ -9,10 +9,10 @@
 
 namespace lodestone::render {
 
-Emitters::Emitters(Backend& backend, const EmitterData& data, const std::vector<uint32_t>& texels,
-                   uint64_t rays)
-    : numbers_(make_buffer(backend, "emitter_numbers", 4, data.numbers)),
-      texels_(make_buffer(backend, "emitter_texels", 4, texels)),
+Emitters::Emitters(Backend& backend, const EmitterData& data, uint64_t rays)
+    : backend_(backend),
+      numbers_(make_buffer(backend, "emitter_numbers", 4, data.numbers)),
+      texels_(make_buffer(backend, "emitter_texels", 4, data.texels)),
       drawn_(backend, {"drawn_points", layout::drawn_quads * rays, 16}) {
   std::vector<glm::uvec2> halves;
   uint32_t most = 0;
@@ -23,6 +23,10 @@ Emitters::Emitters(Backend& backend, const EmitterData& data, const std::vector<
   }
   objects_ = make_buffer(backend, "emitter_objects", 4, halves);
   half_step_ = greatest_step(most);
+}
+
+void Emitters::place(const std::vector<uint32_t>& texels) {
+  backend_.upload(texels_.id(), std::as_bytes(std::span(texels)));
 }
 
 }  // namespace lodestone::render

@@ -12,8 +12,11 @@ namespace lodestone::render {
 
 class Emitters {
  public:
-  // Of `rays` rays. `texels`: of each emitter of `data`, in the geometry image that points are drawn in.
-  Emitters(Backend& backend, const EmitterData& data, const std::vector<uint32_t>& texels, uint64_t rays);
+  // For `rays` rays.
+  Emitters(Backend& backend, const EmitterData& data, uint64_t rays);
+
+  // Where each emitter is, if that is another geometry image than the atlas's.
+  void place(const std::vector<uint32_t>& texels);
 
   // Of each object in its own space, in the rest pose.
   const std::vector<double>& powers() const { return powers_; }
@@ -25,6 +28,7 @@ class Emitters {
   uint32_t half_step() const { return half_step_; }
 
  private:
+  Backend& backend_;
   std::vector<double> powers_;
   uint32_t half_step_ = 0;  // layout::EmitterPush
   Buffer numbers_, texels_, objects_, drawn_;

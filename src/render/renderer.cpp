@@ -97,8 +97,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});
   if (settings.denoise) denoiser.emplace(device, settings, batch_rays);
+  if (!emitter_data.empty()) emitters.emplace(device, emitter_data, batch_rays);
   make_surface();
-  make_emitters();
   setup = device.finish();
 }
 
@@ -123,22 +123,16 @@ void Renderer::State::make_surface() {
       }
       portions.emplace(backend, scene, assembly, atlas, settings, emitter_data.first_of_charts, posed(rest),
                        bytes, batch_rays, materials.has_masks);
+      if (emitters) {
+        emitters->place(portions->emitter_texels(emitter_data.texels));
+        emitter_frame = Buffer(backend, backend.desc(frame.id()));
+      }
       return;
     }
   }
   image.emplace(backend, assembly, atlas, settings, emitter_data.first_of_charts);
   if (settings.relaxation_sweeps > 0 && atlas.report.mapped_charts > 0)
     image->relax(atlas, posed(rest), scene.name);
-}
-
-void Renderer::State::make_emitters() {
-  if (emitter_data.empty()) return;
-  if (portions) {
-    emitters.emplace(backend, emitter_data, portions->emitter_texels(emitter_data.texels), batch_rays);
-    emitter_frame = Buffer(backend, backend.desc(frame.id()));
-  } else {
-    emitters.emplace(backend, emitter_data, emitter_data.texels, batch_rays);
-  }
 }
 
 // Null: nothing is tolerated.

@@ -129,7 +129,6 @@ struct Renderer::State {
   bool has_lens() const { return settings.lens_radius > 0 || settings.integrator == Integrator::dof; }
 
   void make_surface();
-  void make_emitters();
   PosedVertices posed(const scene::Pose& pose) const;
   void update(const scene::Pose& pose, const std::vector<Moment>& shutter);
   float find_focus(const View& view);
