@@ -48,7 +48,10 @@ alignas(16) inline constexpr int32_t shear_turns[3][4] = {{1, 2, 0, 3}, {2, 0, 1
 HWY_ATTR inline void make_ready(const float* from, const TraceTree& tree, SingleRay& ready) {
   const float extent = ready.extent = tree.extent();
   const WideGrid& grid = tree.grid();
-  const Lanes4 origin = load_lanes(from), along = load_lanes(from + 4);
+  // In lane w z once more, not tmin and tmax: products with an infinite ray's reciprocal would be denormal,
+  // and some processors take a hundred cycles for each.
+  const Lanes4 origin = permuted<0, 1, 2, 2>(load_lanes(from)),
+               along = permuted<0, 1, 2, 2>(load_lanes(from + 4));
   const Lanes4 size = abs(along), height = abs(origin);
   ready.ray = {{from[0], from[1], from[2]}, from[3], {from[4], from[5], from[6]}, from[7]};
 
