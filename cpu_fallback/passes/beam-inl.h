@@ -313,27 +313,20 @@ HWY_ATTR inline uint32_t trace_beam(Block& block, const TraceTree& tree, Beam& b
     Entered entered;
     const WideNode& node = tree.wide_node(record);
     test_cone(node, beam, beam.reach, entered);
-    block.count_beam_record(beam_rays);
+    block.count_record(beam_rays);
     ++visits;
     if (record >= first_leaf) {
       if (entered.hits != 0)
         test_leaves(block, tree, beam, node, (record - first_leaf) * wide_fan, entered.hits);
     } else if (entered.hits != 0) {
-      // On to the nearest; the others wait.
-      const uint32_t child = entered.nearest(), first_child = wide_fan * record + 1;
-      if (const uint32_t rest = entered.hits & ~(1u << child); rest != 0)
-        stack.push(entered, rest, first_child);
-      record = first_child + child;
+      const uint32_t first_child = wide_fan * record + 1;
       for (uint32_t waiting = entered.hits; waiting != 0; waiting &= waiting - 1) {
-        const uint32_t other = first_child + static_cast<uint32_t>(std::countr_zero(waiting));
-        for (const auto& planes : tree.wide_node(std::min(other, end - 1)).planes) hwy::Prefetch(&planes);
+        const uint32_t child = first_child + static_cast<uint32_t>(std::countr_zero(waiting));
+        for (const auto& planes : tree.wide_node(std::min(child, end - 1)).planes) hwy::Prefetch(&planes);
       }
-      if (record < end) continue;
+      if (stack.descend(entered, end, record)) continue;
     }
-    bool waits = false;
-    do waits = stack.pop(beam.reach.tmax, record);
-    while (waits && record >= end);
-    if (!waits) return visits;
+    if (!stack.climb(beam.reach.tmax, end, record)) return visits;
   }
 }
 

@@ -356,6 +356,23 @@ struct Stack {
     }
   }
 
+  // From record `at` to the nearest child that was entered; the others wait. False: it is an empty one,
+  // entered by rounding. `end`: of the records.
+  HWY_ATTR bool descend(const Entered& entered, uint32_t end, uint32_t& at) {
+    const uint32_t child = entered.nearest(), first_child = wide_fan * at + 1;
+    if (const uint32_t rest = entered.hits & ~(1u << child); rest != 0) push(entered, rest, first_child);
+    at = first_child + child;
+    return at < end;
+  }
+
+  // To what waits and lies before `tmax`; false: nothing does.
+  bool climb(float tmax, uint32_t end, uint32_t& at) {
+    do {
+      if (!pop(tmax, at)) return false;
+    } while (at >= end);
+    return true;
+  }
+
   // The record on top that lies before `tmax`; false: there is none left.
   bool pop(float tmax, uint32_t& next) {
     while (size != 0) {
@@ -406,7 +423,7 @@ HWY_ATTR inline bool step(Block& block, Flight<Block>& flight) {
   const uint32_t record = flight.record;
   Entered entered;
   test_boxes(tree.wide_node(record), flight.ray, flight.best.t, entered);
-  block.count_record();
+  block.count_record(1);
   ++flight.visits;
   if (record >= first_leaf) {
     if (entered.hits != 0) {
@@ -414,19 +431,10 @@ HWY_ATTR inline bool step(Block& block, Flight<Block>& flight) {
                  entered.enter, flight.best);
       if (block.any_hit() && flight.best.primitive != layout::no_index) return false;
     }
-  } else if (entered.hits != 0) {
-    // On to the nearest; the others wait.
-    const uint32_t child = entered.nearest();
-    const uint32_t first_child = wide_fan * record + 1;
-    if (const uint32_t rest = entered.hits & ~(1u << child); rest != 0)
-      flight.stack.push(entered, rest, first_child);
-    flight.record = first_child + child;
-    if (flight.record < end) return true;  // or else an empty child, entered by rounding
+  } else if (entered.hits != 0 && flight.stack.descend(entered, end, flight.record)) {
+    return true;
   }
-  do {
-    if (!flight.stack.pop(flight.best.t, flight.record)) return false;
-  } while (flight.record >= end);
-  return true;
+  return flight.stack.climb(flight.best.t, end, flight.record);
 }
 
 // Each ray waits for one record after the other: so several are on their way, a step of one while the caches

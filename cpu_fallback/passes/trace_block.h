@@ -95,7 +95,7 @@ class TraceBlock : public NodesKernel<Probe, 10> {
 
   // Do these rays go together? All in one object and of one octant, from nearby origins, in a narrow cone.
   bool coherent(uint32_t first, uint32_t count) {
-    if (count < 4 || this->push_.resume != 0 || moves()) return false;
+    if (count < 4 || this->push_.resume != layout::resume_nothing || moves()) return false;
     Moving still;
     const uint32_t object = this->root(first, still);
     const glm::vec3 lead = direction(first);
@@ -115,7 +115,7 @@ class TraceBlock : public NodesKernel<Probe, 10> {
   // Whether it is worth a look if 64 rays from `first` on go together, through one object and to their
   // nearest hits.
   bool may_be_a_beam(uint32_t first) const {
-    return this->push_.resume == 0 && !any_hit() && !this->instanced() && !moves() &&
+    return this->push_.resume == layout::resume_nothing && !any_hit() && !this->instanced() && !moves() &&
            origin(first) == origin(first + 1);
   }
 
@@ -132,12 +132,12 @@ class TraceBlock : public NodesKernel<Probe, 10> {
   // Whether ray `index` is to be traced in this dispatch, always from the root: nothing is left unfinished
   // here.
   bool wanted(uint32_t index) {
-    if (this->push_.resume == 0) return true;
+    if (this->push_.resume == layout::resume_nothing) return true;
     return layout::trace_goes_on(this->states_.load4(index));
   }
   // layout::accept_triangle's `next`, of a ray that the mask has let through.
   uint32_t next(uint32_t index) {
-    return this->push_.resume == 0 ? layout::no_index : this->states_.load4(index).w;
+    return this->push_.resume == layout::resume_nothing ? layout::no_index : this->states_.load4(index).w;
   }
 
   // `is_ray`: not one whose tmax says that there is none.
@@ -148,7 +148,7 @@ class TraceBlock : public NodesKernel<Probe, 10> {
     if (this->constant(1) != 0) this->steps_.store1(index, visits);
     this->probe.read(8);
     this->probe.write(this->resumable() ? 8 : 4);
-    if (!this->instanced() && this->push_.resume == 0 && is_ray) this->probe.ray();
+    if (!this->instanced() && this->push_.resume == layout::resume_nothing && is_ray) this->probe.ray();
   }
 
   // What finish does, of `count` rays from `first` on, but for their hits; returns where these are to be
@@ -176,7 +176,7 @@ class TraceBlock : public NodesKernel<Probe, 10> {
   }
 
   // One record of 16 bounds was read and tested against so many rays at once.
-  void count_beam_record(uint32_t rays) {
+  void count_record(uint32_t rays) {
     if constexpr (Probe::counting) {
       render::Counters& c = this->probe.counts;
       c.node_visits += wide_fan;
@@ -184,18 +184,6 @@ class TraceBlock : public NodesKernel<Probe, 10> {
       c.bytes_read += sizeof(WideNode);
       c.lane_steps += rays;
       c.subgroup_steps += rays;
-    }
-  }
-
-  // One record of 16 bounds was read and tested against one ray.
-  void count_record() {
-    if constexpr (Probe::counting) {
-      render::Counters& c = this->probe.counts;
-      c.node_visits += wide_fan;
-      c.box_tests += wide_fan;
-      c.bytes_read += sizeof(WideNode);
-      ++c.lane_steps;
-      ++c.subgroup_steps;
     }
   }
 

@@ -69,11 +69,11 @@ class TraceKernel : public Kernel<Probe> {
   bool begin_ray(uint32_t index, const layout::Ray& ray, State& state) {
     state = {{ray.tmax, 0, 0, layout::no_index}, {0, 0, layout::trace_unfinished, layout::no_index}};
     visits_ = 0;
-    if (push_.resume == 0) {
+    if (push_.resume == layout::resume_nothing) {
       if (!instanced_ && !(ray.tmax < 0.0f)) this->probe.ray();  // else counted where it enters
       return true;
     }
-    if (push_.resume == 2) {
+    if (push_.resume == layout::resume_unanswered) {
       if (this->load(hits_, index).w == layout::unanswered) return true;
       this->store(states_, index, {0, 0, layout::trace_finished, layout::no_index});
       return false;
@@ -94,7 +94,8 @@ class TraceKernel : public Kernel<Probe> {
     if (resumable()) this->store(states_, index, state.place);
     if (unfinished) this->add(pending_, 0, 1);
     if (this->constant(1) != 0) {
-      this->store(steps_, index, (push_.resume != 0 ? this->load(steps_, index) : 0) + visits_);
+      this->store(steps_, index,
+                  (push_.resume != layout::resume_nothing ? this->load(steps_, index) : 0) + visits_);
     }
   }
 

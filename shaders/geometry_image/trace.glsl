@@ -163,9 +163,9 @@ bool begin_ray(uint index, Ray ray, out Hit best, out uvec4 state) {
   best.v = 0.0;
   best.primitive = no_index;
   state = uvec4(0u, 0u, trace_unfinished, no_index);
-  if (resumable != 0u && push.resume != 0u) {
+  if (resumable != 0u && push.resume != resume_nothing) {
     uvec4 bits;
-    if (push.resume == 2u) {
+    if (push.resume == resume_unanswered) {
       LOAD4(bits, hits, index);
       if (bits.w == unanswered) return true;
       STORE4(states, index, uvec4(0u, 0u, trace_finished, no_index));
@@ -197,12 +197,12 @@ void end_ray(uint index, Ray ray, Hit best, uvec4 state) {
   if (unfinished) atomicAdd(pending[0], 1u);
   if (write_steps != 0u) {
     uint before = 0u;
-    if (push.resume != 0u) LOAD1(before, steps, index);
+    if (push.resume != resume_nothing) LOAD1(before, steps, index);
     STORE1(steps, index, before + node_visits);
   }
   if (counting != 0u) {
     // Rays through instances are counted where they enter.
-    if (instanced == 0u && push.resume == 0u && !(ray.tmax < 0.0)) count(counter_rays, 1u);
+    if (instanced == 0u && push.resume == resume_nothing && !(ray.tmax < 0.0)) count(counter_rays, 1u);
     count(counter_node_visits, boxes_a_step * node_visits);
     count(counter_box_tests, boxes_a_step * node_visits);
     count(counter_triangle_tests, triangle_tests);

@@ -187,10 +187,14 @@ FN Walk walk_on(Walk walk) {
   return walk;
 }
 
+// What a dispatch begins with.
+CONST uint resume_nothing = 0u;     // all rays from the root
+CONST uint resume_states = 1u;      // those unfinished, from their states
+CONST uint resume_unanswered = 2u;  // those that are `unanswered`, from the root
+
 struct TracePush {
   uint rays;
-  uint resume;  // 0: all rays from the root; 1: those unfinished, from their states; 2: those unanswered,
-                // from the root
+  uint resume;  // one of the above
   uint budget;  // steps of a ray in this dispatch. Mesa before 23 stops a subgroup silently after 65,535 loop
                 // iterations: with 8 lanes and two nested loops a budget of 4,000 can never reach that.
   uint image_texels;  // where something moves (layout/motion.h): of a geometry image

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surfaces that shine, on the device, and the pass that draws points of them (layout/emitters.h).
+// Surfaces that shine, on the device: the tables that points of them are drawn by, and these points
+// (layout/emitters.h).
 #pragma once
 
 #include <cstdint>

@@ -80,7 +80,6 @@ bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t rec
 void Renderer::State::draw_emitters(const layout::PathPush& path) {
   // Of them all is on the device, if of nothing else.
   const GeometryImage& shining = portions ? *portions->emitter_image() : *image;
-  const SurfaceBuffers surface = shining.buffers();
   const layout::EmitterPush push{path.first_ray,
                                  path.rays,
                                  path.sample_index,
@@ -91,30 +90,10 @@ void Renderer::State::draw_emitters(const layout::PathPush& path) {
                                  emitters->half_step()};
   const uint32_t placing = instances ? layout::placing_instances : 0;
   run(passes::draw_emitters,
-      {primary.hits.id(),
-       surface.geometry,
-       surface.normal_map,
-       surface.texel_map,
-       surface.triangles,
-       surface.positions,
-       surface.normals,
-       surface.tangents,
-       surface.texcoords,
-       materials.images.id(),
-       emitters->numbers().id(),
-       surface.charts,
-       materials.parts.id(),
-       materials.materials.id(),
-       materials.textures.id(),
-       emitter_frame ? emitter_frame.id() : frame.id(),
-       settings.shutter_segments > 0 ? primary.times.id() : primary.steps.id(),
-       instances ? instances->records().id() : primary.trails.id(),
-       shining.detail() ? shining.detail()->collapses().id() : primary.steps.id(),
-       primary.rays.id(),
-       emitters->texels().id(),
-       emitters->objects().id(),
-       instances ? instances->numbers().id() : emitters->objects().id(),
-       emitters->drawn().id()},
+      surface_buffers(
+          primary, shining.buffers(), primary.hits.id(), emitter_frame ? emitter_frame.id() : frame.id(),
+          {primary.rays.id(), emitters->texels().id(), emitters->objects().id(),
+           instances ? instances->numbers().id() : emitters->objects().id(), emitters->drawn().id()}),
       push, push.rays, {shining.sources(), materials.layered, 0, 0, placing, settings.shutter_segments});
 }
 

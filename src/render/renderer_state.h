@@ -72,15 +72,16 @@ struct Renderer::State {
     backend.run({&pass, buffers, std::as_bytes(std::span(&push, 1)), invocations, constants});
   }
 
-  std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
-    const FoundSurface* found = found_by(rays);
-    const SurfaceBuffers surface = found != nullptr ? found->buffers() : image->buffers();
+  // Slots 0 to 18 of shaders/geometry_image/surface.glsl for `rays`, on a surface that is theirs or another.
+  std::vector<BufferId> surface_buffers(const RayBuffers& rays, const SurfaceBuffers& surface, BufferId hits,
+                                        BufferId frame_of_surface,
+                                        std::initializer_list<BufferId> more) const {
     std::vector<BufferId> ids = {
-        found != nullptr ? found->hits.id() : rays.hits.id(), surface.geometry, surface.normal_map,
-        surface.texel_map, surface.triangles, surface.positions, surface.normals, surface.tangents,
-        surface.texcoords, materials.images.id(), emitters ? emitters->numbers().id() : rays.steps.id(),
-        surface.charts, materials.parts.id(), materials.materials.id(), materials.textures.id(), frame.id(),
+        hits, surface.geometry, surface.normal_map, surface.texel_map, surface.triangles, surface.positions,
+        surface.normals, surface.tangents, surface.texcoords, materials.images.id(),
         // What the constants leave out nothing reads; any words and quads will do.
+        emitters ? emitters->numbers().id() : rays.steps.id(), surface.charts, materials.parts.id(),
+        materials.materials.id(), materials.textures.id(), frame_of_surface,
         instances                       ? rays.instances.id()
         : settings.shutter_segments > 0 ? times_of(rays).id()
                                         : rays.steps.id(),
@@ -88,6 +89,11 @@ struct Renderer::State {
         has_detail() ? image->detail()->collapses().id() : rays.steps.id()};
     ids.insert(ids.end(), more);
     return ids;
+  }
+  std::vector<BufferId> surface_buffers(const RayBuffers& rays, std::initializer_list<BufferId> more) const {
+    const FoundSurface* found = found_by(rays);
+    return surface_buffers(rays, found != nullptr ? found->buffers() : image->buffers(),
+                           found != nullptr ? found->hits.id() : rays.hits.id(), frame.id(), more);
   }
 
   // Of the passes that read them.

@@ -277,16 +277,17 @@ bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t cou
                     const Interrupted& interrupted, const Buffer* roots) {
   const bool tiles = traversal_ == Traversal::tile && query.common_origin && !query.any_hit && !query.steps;
   // Most rays come to their end in the first dispatch, which need not keep what only the next ones read.
-  Round round{query.restarted ? 1u : 0u, query.restarted || query.judged || query.steps};
+  Round round{query.restarted ? layout::resume_states : layout::resume_nothing,
+              query.restarted || query.judged || query.steps};
   do {
     if (interrupted && interrupted()) return false;
     clear_pending();
-    if (tiles && round.resume == 0) {
+    if (tiles && round.resume == layout::resume_nothing) {
       dispatch_tiles(geometry, rays, count, round);  // what does not go together is left to the next
     } else {
       dispatch(geometry, rays, count, query, round, roots);
     }
-    round = {round.resumable ? 1u : 2u, true};
+    round = {round.resumable ? layout::resume_states : layout::resume_unanswered, true};
   } while (take_pending() != 0);
   return true;
 }

@@ -109,7 +109,7 @@ class Tracing {
   }
   // What a dispatch is about (layout::TracePush::resume), and whether rays keep their states.
   struct Round {
-    uint32_t resume = 0;
+    uint32_t resume = layout::resume_nothing;
     bool resumable = true;
   };
   void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const Round& round);
