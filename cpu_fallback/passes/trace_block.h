@@ -11,29 +11,26 @@
 
 namespace lodestone::cpu_fallback {
 
-inline constexpr uint32_t packet_rays = 16;
 inline constexpr uint32_t trace_grain = 1024;  // rays of a task, at most
+
+// The square of the cosine to one of them, of rays that go the same way.
+inline constexpr float narrow_cone = 0.96f;
 
 // The hierarchy of one object.
 class TraceTree {
  public:
-  // `nodes_lo`, `nodes_hi`, `wide`, `leaf_map`: of all objects.
-  TraceTree(const layout::ObjectRecord& object, const Quads& nodes_lo, const Quads& nodes_hi,
-            const WideNode* wide, const Words& leaf_map)
-      : nodes_lo_{nodes_lo.words + 4 * uint64_t(object.first_node)},
-        nodes_hi_{nodes_hi.words + 4 * uint64_t(object.first_node)},
-        wide_(wide + object.first_wide),
+  // `wide`, `leaf_map`: of all objects.
+  TraceTree(const layout::ObjectRecord& object, const WideNode* wide, const Words& leaf_map)
+      : wide_(wide + object.first_wide),
         leaf_map_{leaf_map.words + 2 * uint64_t(object.first_slot)},
-        depth_(object.depth),
         slots_(object.slots),
-        grid_(as_vec3(nodes_lo_.load4(0)), as_vec3(nodes_hi_.load4(0))),
+        grid_{glm::vec4(object.lo, 0), glm::vec4(object.step, 0)},
         extent_(object.extent) {
-    const render::WideLevels levels(depth_, slots_);
+    const render::WideLevels levels(object.depth, slots_);
     first_leaf_record_ = render::WideLevels::first(levels.count() - 1);
     end_record_ = levels.end();
   }
 
-  uint32_t depth() const { return depth_; }
   float extent() const { return extent_; }
   const WideGrid& grid() const { return grid_; }
 
@@ -50,73 +47,56 @@ class TraceTree {
     return texel != layout::empty_slot;
   }
 
-  // 8 floats a node in two arrays: lo x y z, order or leaf; hi x y z, stride.
-  const float* nodes_lo(uint32_t address) const {
-    return reinterpret_cast<const float*>(nodes_lo_.words) + 4 * uint64_t(address);
-  }
-  const float* nodes_hi(uint32_t address) const {
-    return reinterpret_cast<const float*>(nodes_hi_.words) + 4 * uint64_t(address);
-  }
-  uint32_t leaf_texel(uint32_t address) const { return order(address) & ~layout::leaf_flag; }
-  uint32_t leaf_stride(uint32_t address) const { return nodes_hi_.words[4 * uint64_t(address) + 3]; }
-  uint32_t order(uint32_t address) const { return nodes_lo_.words[4 * uint64_t(address) + 3]; }
-
  private:
-  Quads nodes_lo_, nodes_hi_;
   const WideNode* wide_;
   Words leaf_map_;
-  uint32_t depth_, slots_;
+  uint32_t slots_;
   WideGrid grid_;
   float extent_;
   uint32_t first_leaf_record_, end_record_;
 };
 
 template <class Probe>
-class TraceBlock : public NodesKernel<Probe, 10> {
+class TraceBlock : public TraceKernel<Probe, 8> {
  public:
   static constexpr bool counting = Probe::counting;
 
-  explicit TraceBlock(const CpuDispatch& dispatch) : NodesKernel<Probe, 10>(dispatch) {}
+  explicit TraceBlock(const CpuDispatch& dispatch) : TraceKernel<Probe, 8>(dispatch) {}
 
-  bool any_hit() const { return NodesKernel<Probe, 10>::any_hit(); }
+  bool any_hit() const { return TraceKernel<Probe, 8>::any_hit(); }
 
-  using Moving = typename NodesKernel<Probe, 10>::Moving;
-  using NodesKernel<Probe, 10>::moves;
+  using Moving = typename TraceKernel<Probe, 8>::Moving;
+  using TraceKernel<Probe, 8>::moves;
 
   // The hierarchy that ray `index` goes through, and when it sees the quads.
   TraceTree tree(uint32_t index, Moving& moving) {
-    return TraceTree(this->load_object(this->root(index, moving)), this->nodes_lo_, this->nodes_hi_, wide_,
-                     leaf_map_);
+    return TraceTree(this->load_object(this->root(index, moving)), wide_, leaf_map_);
   }
   TraceTree tree(uint32_t index) {
     Moving still;
     return tree(index, still);
   }
 
-  // Do these rays go together? All in one object and of one octant, from nearby origins, in a narrow cone.
-  bool coherent(uint32_t first, uint32_t count) {
-    if (count < 4 || this->push_.resume != layout::resume_nothing || moves()) return false;
-    Moving still;
-    const uint32_t object = this->root(first, still);
-    const glm::vec3 lead = direction(first);
-    const uint32_t octant = octant_of(lead);
-    glm::vec3 lo = origin(first), hi = lo;
-    for (uint32_t i = first; i < first + count; ++i) {
-      const glm::vec3 other = direction(i);
-      if (this->root(i, still) != object || octant_of(other) != octant ||
-          !(layout::dot3(lead, other) >= 0.98f))
-        return false;
-      lo = layout::min3(lo, origin(i));
-      hi = layout::max3(hi, origin(i));
-    }
-    return layout::max_component(hi - lo) < tree(first).extent() * (1.0f / 64);
-  }
-
-  // Whether it is worth a look if 64 rays from `first` on go together, through one object and to their
-  // nearest hits.
+  // Whether it is worth a look if 64 rays from `first` on go together.
   bool may_be_a_beam(uint32_t first) const {
-    return this->push_.resume == layout::resume_nothing && !any_hit() && !this->instanced() && !moves() &&
-           origin(first) == origin(first + 1);
+    if (this->push_.resume != layout::resume_nothing || moves()) return false;
+    const glm::vec3 lead = direction(first), other = direction(first + 1);
+    const float together = layout::dot3(lead, other);
+    return together * together >= narrow_cone * layout::dot3(lead, lead) * layout::dot3(other, other);
+  }
+  // Whether they all start at one point, as far as the first two say; only nearest hits in one object are
+  // looked for in that way.
+  bool may_have_one_origin(uint32_t first) const {
+    return !any_hit() && !instanced() && origin(first) == origin(first + 1);
+  }
+  using TraceKernel<Probe, 8>::instanced;
+  // Of 64 rays from `first` on the bits of those that go through the same object as ray `index`.
+  uint64_t same_root(uint32_t first, uint32_t index) {
+    Moving still;
+    const uint32_t object = this->root(index, still);
+    uint64_t same = 0;
+    for (uint32_t i = 0; i < 64; ++i) same |= uint64_t(this->root(first + i, still) == object) << i;
+    return same;
   }
 
   const float* ray_quads(uint32_t index) const {
@@ -159,20 +139,8 @@ class TraceBlock : public NodesKernel<Probe, 10> {
     for (uint32_t i = first; this->constant(1) != 0 && i < first + count; ++i) this->steps_.store1(i, visits);
     this->probe.read(8 * count);
     this->probe.write((this->resumable() ? 8 : 4) * count);
-    for (uint32_t i = 0; Probe::counting && i < count; ++i) this->probe.ray();
+    for (uint32_t i = 0; Probe::counting && !instanced() && i < count; ++i) this->probe.ray();
     return this->hits_.words + 4 * uint64_t(first);
-  }
-
-  // One node was read and tested against the `rays` rays of a packet, of which `active` enter it.
-  void count_step(uint32_t rays, uint32_t active) {
-    if constexpr (Probe::counting) {
-      render::Counters& c = this->probe.counts;
-      c.node_visits += rays;
-      c.box_tests += rays;
-      c.bytes_read += 32;
-      c.lane_steps += active;
-      c.subgroup_steps += packet_rays;
-    }
   }
 
   // One record of 16 bounds was read and tested against so many rays at once.
@@ -221,12 +189,8 @@ class TraceBlock : public NodesKernel<Probe, 10> {
   // As stored: whether these are numbers at all, ray() tells.
   glm::vec3 origin(uint32_t index) const { return as_vec3(this->rays_.load4(2 * uint64_t(index))); }
   glm::vec3 direction(uint32_t index) const { return as_vec3(this->rays_.load4(2 * uint64_t(index) + 1)); }
-  static uint32_t octant_of(const glm::vec3& direction) {
-    return (direction.x < 0 ? 1 : 0) | (direction.y < 0 ? 2 : 0) | (direction.z < 0 ? 4 : 0);
-  }
-
-  const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(8).words);
-  Words leaf_map_ = this->words(9);
+  const WideNode* wide_ = reinterpret_cast<const WideNode*>(this->words(6).words);
+  Words leaf_map_ = this->words(7);
 };
 
 }  // namespace lodestone::cpu_fallback

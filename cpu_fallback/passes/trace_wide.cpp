@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/cpu_fallback/passes/trace_wide.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "lodestone/cpu_fallback/cpu_backend.h"
@@ -13,7 +14,6 @@
 #include <hwy/highway.h>
 
 #include "lodestone/cpu_fallback/passes/beam-inl.h"
-#include "lodestone/cpu_fallback/passes/packet-inl.h"
 #include "lodestone/cpu_fallback/passes/single_ray-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,18 +24,10 @@ template <class Block>
 HWY_ATTR void trace_rays(Block& block, uint32_t begin, uint32_t end) {
   uint32_t singles[trace_grain];
   uint32_t size = 0;
-  for (uint32_t first = begin; first < end; first += packet_rays) {
-    if (first % layout::tile_rays == 0 && first + layout::tile_rays <= end &&
-        trace_beams(block, first, singles, size)) {
-      first += layout::tile_rays - packet_rays;
-      continue;
-    }
-    const uint32_t count = std::min(packet_rays, end - first);
-    if (block.coherent(first, count)) {
-      trace_packet(block, first, count);
-    } else {
-      for (uint32_t i = first; i < first + count; ++i) singles[size++] = i;
-    }
+  for (uint32_t first = begin; first < end; first += layout::tile_rays) {
+    const bool whole = first + layout::tile_rays <= end;
+    if (whole && trace_beams(block, first, singles, size)) continue;
+    for (uint32_t i = first; i < std::min(first + layout::tile_rays, end); ++i) singles[size++] = i;
   }
   trace_singles(block, singles, size);
 }

@@ -212,7 +212,6 @@ struct BoundsPush {
   uint written_above;  // ... and of the one above that
   uint first_node;     // of the hierarchy
   uint first_slot;
-  uint first_wide;
   uint image;       // first texel of the geometry image, and ...
   uint next_image;  // ... of the one behind, where something moves
 };

@@ -47,4 +47,12 @@ LeafBlocks find_leaf_blocks(std::span<const glm::uvec2> leaf_map, const Hierarch
   return found;
 }
 
+std::vector<glm::uvec4> sixteen_slots(std::span<const glm::uvec2> leaf_map) {
+  std::vector<glm::uvec4> groups((leaf_map.size() + group_slots - 1) / group_slots, glm::uvec4(0));
+  for (uint32_t group = 0; group < groups.size(); ++group) {
+    if (const auto block = find_block(leaf_map, group)) groups[group] = {1, block->y, block->z, block->w};
+  }
+  return groups;
+}
+
 }  // namespace lodestone::render

@@ -22,4 +22,8 @@ struct LeafBlocks {
 // Of the groups above which `levels` writes records.
 LeafBlocks find_leaf_blocks(std::span<const glm::uvec2> leaf_map, const HierarchyLevels& levels);
 
+// The same for every sixteen slots there are, one after the other: { 1, t, stride, w | h << 8 } of a block,
+// all zero of other groups.
+std::vector<glm::uvec4> sixteen_slots(std::span<const glm::uvec2> leaf_map);
+
 }  // namespace lodestone::render

@@ -79,13 +79,8 @@ constexpr Binding trace_octant_bindings[] = {
     RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
 
 // The CPU's traversal.
-constexpr Binding trace_wide_bindings[] = {RAY_BINDINGS,
-                                           {"nodes_lo", quad, read},
-                                           {"nodes_hi", quad, read},
-                                           {"wide_nodes", structs, read},
-                                           {"leaf_map", word, read},
-                                           OBJECT_BINDINGS,
-                                           DETAIL_BINDINGS};
+constexpr Binding trace_wide_bindings[] = {
+    RAY_BINDINGS, {"wide_nodes", structs, read}, {"leaf_map", word, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
 
 constexpr Binding trace_boxes_bindings[] = {
     RAY_BINDINGS,    {"boxes", quad, read}, {"leaf_map", word, read}, {"trails", quad, read_write},
@@ -204,8 +199,11 @@ constexpr Binding boxes_blocks_bindings[] = {
 
 constexpr Binding boxes_bindings[] = {{"boxes", quad, read_write}};
 
-constexpr Binding wide_nodes_bindings[] = {
-    {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, {"wide_nodes", structs, write}};
+// The CPU's.
+constexpr Binding wide_nodes_bindings[] = {{"leaf_map", word, read},
+                                           {"geometry", quad, read},
+                                           {"blocks", quad, read},
+                                           {"wide_nodes", structs, write}};
 
 // `placing`: whether it writes cones.
 #define SURFACE_BINDINGS_OF(placing)                                                                     \
@@ -306,7 +304,7 @@ const PassDecl rasterise{"rasterise", "geometry_image/rasterise", rasterise_bind
 const PassDecl bounds_leaves{"bounds", "geometry_image/bounds_leaves", bounds_leaves_bindings,
                              sizeof(BoundsPush)};
 const PassDecl bounds{"bounds", "geometry_image/bounds", bounds_bindings, sizeof(BoundsPush)};
-const PassDecl wide_nodes{"bounds", "geometry_image/wide_nodes", wide_nodes_bindings, sizeof(BoundsPush)};
+const PassDecl wide_nodes{"bounds", "geometry_image/wide_nodes", wide_nodes_bindings, sizeof(BoxesPush)};
 const PassDecl boxes_blocks{"bounds", "geometry_image/boxes_blocks", boxes_blocks_bindings,
                             sizeof(BoxesPush)};
 const PassDecl boxes_leaves{"bounds", "geometry_image/boxes_leaves", boxes_leaves_bindings,

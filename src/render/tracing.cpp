@@ -63,13 +63,15 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
     boxes_ = Buffer(backend, {"boxes", 3 * node_count_, 16});
     return;
   }
+  if (traversal_ == Traversal::wide) {
+    wide_nodes_ = Buffer(backend, {"wide_nodes", wide_count_, wide_node_bytes});
+    return;
+  }
   nodes_lo_ = Buffer(backend, {"nodes_lo", node_count_, 16});
   nodes_hi_ = Buffer(backend, {"nodes_hi", node_count_, 16});
   if (traversal_ == Traversal::threaded) {
     links_ = Buffer(backend, {"links", 2 * node_count_, 4});
     for (const Tree& tree : trees_) build_links(tree);
-  } else if (traversal_ == Traversal::wide) {
-    wide_nodes_ = Buffer(backend, {"wide_nodes", wide_count_, wide_node_bytes});
   }
 }
 
@@ -78,9 +80,14 @@ void Tracing::place_trees(const geometry_image::Atlas& atlas) {
   LeafBlocks all;
   for (const geometry_image::AtlasObject& object : atlas.objects) {
     Tree tree{HierarchyLevels(object.depth, object.slots), 0, object.first_slot, 0, 0, 0, 0, 0};
-    if (uses_boxes()) {
-      LeafBlocks found =
-          find_leaf_blocks(std::span(atlas.leaf_map).subspan(object.first_slot, object.slots), tree.levels);
+    const auto leaf_map = std::span(atlas.leaf_map).subspan(object.first_slot, object.slots);
+    if (traversal_ == Traversal::wide && on_cpu_) {
+      const std::vector<glm::uvec4> groups = sixteen_slots(leaf_map);
+      tree.first_block = static_cast<uint32_t>(all.blocks.size());
+      tree.blocks = static_cast<uint32_t>(groups.size());
+      all.blocks.insert(all.blocks.end(), groups.begin(), groups.end());
+    } else if (uses_boxes()) {
+      LeafBlocks found = find_leaf_blocks(leaf_map, tree.levels);
       if (segments_ > 0) {  // boxes_blocks bounds quads of one image
         for (const glm::uvec4& block : found.blocks) found.others.push_back(block.x);
         found.blocks.clear();
@@ -144,6 +151,8 @@ void Tracing::build(const Buffer& geometry, const std::vector<scene::Bounds>& bo
   for (size_t i = first; i < trees_.size(); ++i) {
     if (uses_boxes()) {
       build_boxes(geometry, i);
+    } else if (traversal_ == Traversal::wide) {
+      build_wide_nodes(geometry, i);
     } else {
       build_nodes(geometry, i);
     }
@@ -156,9 +165,8 @@ void Tracing::build_nodes(const Buffer& geometry, size_t object) {
   const uint32_t image = first_texel(object);
   const uint32_t depth = levels.depth();
   const auto push_of = [&](uint32_t level, uint32_t count, uint32_t written, uint32_t written_above) {
-    return layout::BoundsPush{level,           count,           written,
-                              written_above,   tree.first_node, tree.first_slot,
-                              tree.first_wide, image,           image + image_texels_};
+    return layout::BoundsPush{level,           count,           written, written_above,
+                              tree.first_node, tree.first_slot, image,   image + image_texels_};
   };
   run(passes::bounds_leaves, {leaf_map_.id(), geometry.id(), nodes_lo_.id(), nodes_hi_.id()},
       push_of(depth, levels.slots(), levels.places(depth), levels.places(depth - 1)),
@@ -170,11 +178,23 @@ void Tracing::build_nodes(const Buffer& geometry, size_t object) {
     run(passes::bounds, {nodes_lo_.id(), nodes_hi_.id()}, push, two ? push.written_above : push.written);
     level -= two ? 2 : 1;
   }
-  if (traversal_ == Traversal::wide) {
-    const WideLevels wide(depth, levels.slots());
-    run(passes::wide_nodes, {nodes_lo_.id(), nodes_hi_.id(), wide_nodes_.id()},
-        push_of(depth, levels.slots(), 0, 0), wide.end());
-  }
+}
+
+void Tracing::build_wide_nodes(const Buffer& geometry, size_t object) {
+  const Tree& tree = trees_[object];
+  const uint32_t image = first_texel(object);
+  const layout::BoxesPush push{tree.levels.depth(),
+                               tree.levels.slots(),
+                               0,
+                               0,
+                               layout::object_grid(records_[object]),
+                               tree.first_wide,
+                               tree.first_slot,
+                               tree.first_block,
+                               image,
+                               image + image_texels_};
+  run(passes::wide_nodes, {leaf_map_.id(), geometry.id(), leaf_blocks_.id(), wide_nodes_.id()}, push,
+      tree.blocks, {segments_ > 0 ? 1u : 0u});
 }
 
 void Tracing::build_boxes(const Buffer& geometry, size_t object) {
@@ -245,12 +265,14 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
     run(query.shadow ? passes::occlude_boxes : passes::trace_boxes, buffers, push, count, constants);
     return;
   }
-  buffers.insert(buffers.end(), {nodes_lo_.id(), nodes_hi_.id()});
   if (traversal_ == Traversal::wide) {
     buffers.insert(buffers.end(), {wide_nodes_.id(), leaf_map_.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
     run(query.shadow ? passes::occlude_wide : passes::trace_wide, buffers, push, count, constants);
-  } else if (traversal_ == Traversal::octant) {
+    return;
+  }
+  buffers.insert(buffers.end(), {nodes_lo_.id(), nodes_hi_.id()});
+  if (traversal_ == Traversal::octant) {
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
     run(query.shadow ? passes::occlude_octant : passes::trace_octant, buffers, push, count, constants);
   } else {

@@ -94,12 +94,14 @@ class Tracing {
   struct Tree {
     HierarchyLevels levels;
     uint32_t first_node, first_slot, first_wide;
-    uint32_t first_block, blocks, first_group, groups;  // what boxes_blocks and boxes_leaves work through
+    uint32_t first_block, blocks, first_group,
+        groups;  // what boxes_blocks, boxes_leaves and wide_nodes work through
   };
   void place_trees(const geometry_image::Atlas& atlas);
   void build_links(const Tree& tree);
   void build_nodes(const Buffer& geometry, size_t object);
   void build_boxes(const Buffer& geometry, size_t object);
+  void build_wide_nodes(const Buffer& geometry, size_t object);
   // Of the geometry image at whose time the segment of hierarchy `object` begins.
   uint32_t first_texel(size_t object) const {
     return image_texels_ * static_cast<uint32_t>(object / objects_a_segment_);
@@ -127,10 +129,10 @@ class Tracing {
   std::vector<Tree> trees_;  // one an object, of each segment
   uint64_t node_count_ = 0, wide_count_ = 0;
   std::vector<layout::ObjectRecord> records_;
-  Buffer objects_;                                   // the same on the device
-  Buffer nodes_lo_, nodes_hi_, links_, wide_nodes_;  // 32 bits, and the CPU's copy in 16
+  Buffer objects_;                      // the same on the device
+  Buffer nodes_lo_, nodes_hi_, links_;  // 32 bits
   Buffer leaf_blocks_, leaf_groups_;
-  Buffer boxes_;  // 16 bits
+  Buffer boxes_, wide_nodes_;  // 16 bits, the second for the CPU
   Buffer pending_;
 };
 

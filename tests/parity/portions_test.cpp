@@ -122,7 +122,7 @@ TEST_P(PortionsOn, LetRaysThroughMasks) {
   }
   for (const AtlasKind kind : {AtlasKind::automatic, AtlasKind::exact}) {
     const ReadyScene ready(scene, kind);
-    EXPECT_GT(expect_the_same(*backend_, ready, 0, settings_of(render::Integrator::eye, 4 * megabyte)), 1u);
+    EXPECT_GT(expect_the_same(*backend_, ready, 0, settings_of(render::Integrator::eye, 3 * megabyte)), 1u);
   }
 }
 
