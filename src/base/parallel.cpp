@@ -67,13 +67,15 @@ void tell_pool(uint32_t threads) {
 }
 
 void share(uint64_t blocks, uint32_t threads, const Block& run_block) {
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.execute([&] {
+  const auto run = [&] {
     tbb::parallel_for(tbb::blocked_range<uint64_t>(0, blocks, 1),
                       [&](const tbb::blocked_range<uint64_t>& range) {
                         for (uint64_t block = range.begin(); block != range.end(); ++block) run_block(block);
                       });
-  });
+  };
+  // The thread's own arena has a place a core; to make another takes as long as a short loop.
+  if (threads <= static_cast<uint32_t>(tbb::this_task_arena::max_concurrency())) return run();
+  tbb::task_arena(static_cast<int>(threads)).execute(run);
 }
 
 #endif
