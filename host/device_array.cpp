@@ -23,8 +23,10 @@ bool is_word_or_quad(uint32_t element_bytes) {
 
 }  // namespace
 
-ArrayLimits::ArrayLimits(const PhysicalDevice& device, bool uses_texel_buffers, uint64_t max_bytes)
+ArrayLimits::ArrayLimits(const PhysicalDevice& device, bool uses_texel_buffers, bool uses_pairs,
+                         uint64_t max_bytes)
     : texel_buffers(uses_texel_buffers),
+      pairs(uses_texel_buffers && uses_pairs && device.features.shaderInt64 == VK_TRUE),
       has_addresses(device.features12.bufferDeviceAddress == VK_TRUE),
       texel_elements(device.limits().maxTexelBufferElements),
       buffer_bytes(std::min(device.max_buffer_size, max_bytes)),

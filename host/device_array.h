@@ -18,8 +18,9 @@ namespace lodestone::host {
 // can see whole are cut into segments of 2^segment_shift bytes, and the variant `_split` takes their
 // addresses.
 struct ArrayLimits {
-  // `max_bytes`: no buffer is made larger than this, whatever the device can do.
-  ArrayLimits(const PhysicalDevice& device, bool texel_buffers, uint64_t max_bytes);
+  // `pairs`: quads are stored as such where the device can do that. `max_bytes`: no buffer is made larger
+  // than this, whatever the device can do.
+  ArrayLimits(const PhysicalDevice& device, bool texel_buffers, bool pairs, uint64_t max_bytes);
 
   // The largest array of elements of this size, in bytes, that a texel buffer shows; 0: there are none.
   uint64_t texel_bytes(uint32_t element_bytes) const;
@@ -32,6 +33,7 @@ struct ArrayLimits {
   uint64_t segment_bytes() const { return uint64_t(1) << segment_shift; }
 
   bool texel_buffers;  // word and quad arrays are texel buffers where those show them whole
+  bool pairs;          // but quads that are written are pairs of 64-bit numbers in storage buffers
   bool has_addresses;  // the device can do more than that
   uint64_t texel_elements;
   uint64_t buffer_bytes;   // of one VkBuffer

@@ -104,7 +104,7 @@ std::string list_names(const std::vector<DeviceDetails>& devices) {
 
 bool uses_texel_buffers(const PhysicalDevice& device, TexelBuffers choice) {
   if (choice == TexelBuffers::never) return false;
-  if (choice == TexelBuffers::always) {
+  if (choice != TexelBuffers::automatic) {
     if (!device.texel_formats) {
       fail(ExitCode::device, device.name(), "R32_UINT or R32G32B32A32_UINT cannot be storage texel buffers");
     }
@@ -128,7 +128,7 @@ DeviceDetails describe_device(const PhysicalDevice& device, uint32_t index, bool
   details.lacks = list_lacks(device);
   details.unusable = missing_requirements(device);
   if (details.unusable.empty()) {
-    const ArrayLimits limits(device, texel_buffers, std::numeric_limits<uint64_t>::max());
+    const ArrayLimits limits(device, texel_buffers, true, std::numeric_limits<uint64_t>::max());
     details.max_buffer_bytes = std::min(limits.whole_bytes(4), limits.whole_bytes(16));
   }
   details.properties = list_properties(device, texel_buffers);

@@ -11,7 +11,9 @@
 
 namespace lodestone::host {
 
-enum class TexelBuffers { automatic, always, never };
+// Whether word and quad buffers become texel buffers; without_pairs: those that are written as well, whatever
+// the device.
+enum class TexelBuffers { automatic, always, without_pairs, never };
 
 // A line of `lodestone devices`.
 struct DeviceProperty {

@@ -63,6 +63,12 @@ void PipelineLibrary::check_limits(const render::PassDecl& pass,
   demand(pass.push_bytes, limits.maxPushConstantsSize, "bytes of push constants");
 }
 
+bool is_texel_buffer(const render::Binding& binding, BufferForm form) {
+  if (binding.kind == render::BindingKind::structs) return false;
+  const bool pair = binding.kind == render::BindingKind::quad && binding.access == render::Access::write;
+  return form == BufferForm::texel || (form == BufferForm::pairs && !pair);
+}
+
 const PipelineLayout& PipelineLibrary::get_layout(const render::PassDecl& pass, BufferForm form) {
   require(pass.push_bytes % 4 == 0, "pass {} has {} bytes of push constants, not a multiple of 4", pass.name,
           pass.push_bytes);
@@ -70,8 +76,8 @@ const PipelineLayout& PipelineLibrary::get_layout(const render::PassDecl& pass, 
           pass.bindings.size());
   std::vector<VkDescriptorType> types;
   for (const render::Binding& binding : pass.bindings) {
-    const bool texel = form == BufferForm::texel && binding.kind != render::BindingKind::structs;
-    types.push_back(texel ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    types.push_back(is_texel_buffer(binding, form) ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+                                                   : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
   }
   types.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);  // counters
   const LayoutKey key{types, pass.push_bytes};
@@ -105,7 +111,7 @@ const PipelineLayout& PipelineLibrary::get_layout(const render::PassDecl& pass, 
 }
 
 VkShaderModule PipelineLibrary::load_module(const render::PassDecl& pass, BufferForm form) const {
-  constexpr const char* suffixes[] = {"", "_texel", "_split"};
+  constexpr const char* suffixes[] = {"", "_texel", "_pairs", "_split"};
   const std::string name = std::string(pass.kernel) + suffixes[size_t(form)];
   const std::span<const uint32_t> words = kernels::find_kernel(kernels_, name);
   require(!words.empty(), "there is no kernel {}", name);

@@ -29,7 +29,9 @@ struct PipelineLayout {
 };
 
 // How a kernel sees word and quad arrays (shaders/kernel.glsl).
-enum class BufferForm : uint8_t { storage, texel, split };
+enum class BufferForm : uint8_t { storage, texel, pairs, split };
+
+bool is_texel_buffer(const render::Binding& binding, BufferForm form);
 
 struct KernelVariant {
   BufferForm form = BufferForm::storage;

@@ -46,7 +46,7 @@ class VulkanBackend final : public render::Backend {
         physical_(physical),
         info_(details),
         limits_(physical, uses_texel_buffers(physical, host_options.texel_buffers),
-                host_options.max_buffer_bytes),
+                host_options.texel_buffers != TexelBuffers::without_pairs, host_options.max_buffer_bytes),
         device_(*instance_, physical_),
         memory_(device_, host_options.map_device_memory),
         cache_(device_, host_options.cache_folder, digest_of(host_options.kernels)),
@@ -269,16 +269,18 @@ void VulkanBackend::check_range(const render::Dispatch& dispatch, size_t binding
 
 // The fastest variant that can see all arrays whole, or the one that gets the addresses of those it cannot.
 KernelVariant VulkanBackend::choose_variant(const render::Dispatch& dispatch) const {
-  bool fits_texel_buffers = limits_.texel_buffers;
+  bool fits_texel_buffers = limits_.texel_buffers, fits_pairs = limits_.pairs;
   uint32_t addressed = 0;
   for (size_t i = 0; i < dispatch.buffers.size(); ++i) {
     const render::BindingKind kind = dispatch.pass->bindings[i].kind;
     if (kind == render::BindingKind::structs) continue;
     const uint64_t bytes = buffers_.get(dispatch.buffers[i]).array->bytes();
     if (bytes > limits_.texel_bytes(element_bytes(kind))) fits_texel_buffers = false;
-    if (bytes > limits_.storage_bytes) addressed |= 1u << i;
+    if (bytes <= limits_.storage_bytes) continue;
+    addressed |= 1u << i;
+    if (!is_texel_buffer(dispatch.pass->bindings[i], BufferForm::pairs)) fits_pairs = false;
   }
-  if (fits_texel_buffers) return {BufferForm::texel, 0};
+  if (fits_texel_buffers) return {fits_pairs ? BufferForm::pairs : BufferForm::texel, 0};
   if (addressed == 0) return {BufferForm::storage, 0};
   if (limits_.has_addresses) return {BufferForm::split, addressed};
   fail(ExitCode::device, device_.name(),

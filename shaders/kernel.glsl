@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What every kernel starts with: its index, its buffers and its counters. Buffers of words (4 bytes) and quads (16 bytes)
-// are storage buffers in one variant of each kernel and texel buffers in another (on lavapipe nearly twice as fast, and
-// with room for 2 GiB). The third is for arrays that neither can show whole; it reaches those by addresses. Kernels name
-// their buffers only through these macros.
+// What every kernel starts with: its index, its buffers and its counters. Buffers of words (4 bytes) and quads (16
+// bytes) are storage buffers in one variant of each kernel and texel buffers in the others (on lavapipe nearly twice as
+// fast to read, and with room for 2 GiB). In the variant of pairs quads that are written are storage buffers all the
+// same, of 64-bit numbers: lavapipe stores lane by lane and number by number. The last variant is for arrays that none
+// of these can show whole; it reaches those by addresses. Kernels name their buffers only through these macros.
 #extension GL_EXT_scalar_block_layout : require
+#if LODESTONE_PAIR_STORES
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 
 #include "layout/counters.h"
 #include "layout/types.h"
@@ -18,15 +22,34 @@ uint words_written = 0u;
 void count_read(uint words) { words_read += counting * words; }
 void count_write(uint words) { words_written += counting * words; }
 
+#define DATA(slot, access, type, name) layout(set = 0, binding = slot, scalar) access buffer name##_block { type name[]; }
 #if LODESTONE_TEXEL_BUFFERS
-#define QUADS(slot, access, name) layout(set = 0, binding = slot, rgba32ui) uniform access uimageBuffer name
-#define WORDS(slot, access, name) layout(set = 0, binding = slot, r32ui) uniform access uimageBuffer name
-#define RAW_LOAD4(name, i) imageLoad(name, int(i))
+// Of each array name##_load and name##_store, as far as it may be read and written.
+#define TEXELS(slot, access, format, name) layout(set = 0, binding = slot, format) uniform access uimageBuffer name
+#define QUADS(slot, access, name) QUADS_FOR(access, slot, name)  // so that an access that is a macro is expanded
+#define QUADS_FOR(access, slot, name) QUADS_##access(slot, name)
+#define QUADS_readonly(slot, name)              \
+  TEXELS(slot, readonly, rgba32ui, name);       \
+  uvec4 name##_load(uint i) { return imageLoad(name, int(i)); }
+#define QUADS_restrict(slot, name)        \
+  TEXELS(slot, restrict, rgba32ui, name); \
+  uvec4 name##_load(uint i) { return imageLoad(name, int(i)); } \
+  void name##_store(uint i, uvec4 value) { imageStore(name, int(i), value); }
+#if LODESTONE_PAIR_STORES
+#define QUADS_writeonly(slot, name)        \
+  DATA(slot, writeonly, u64vec2, name);    \
+  void name##_store(uint i, uvec4 value) { name[i] = u64vec2(packUint2x32(value.xy), packUint2x32(value.zw)); }
+#else
+#define QUADS_writeonly(slot, name)        \
+  TEXELS(slot, writeonly, rgba32ui, name); \
+  void name##_store(uint i, uvec4 value) { imageStore(name, int(i), value); }
+#endif
+#define WORDS(slot, access, name) TEXELS(slot, access, r32ui, name)
+#define RAW_LOAD4(name, i) name##_load(uint(i))
 #define RAW_LOAD1(name, i) imageLoad(name, int(i)).x
-#define RAW_STORE4(name, i, value) imageStore(name, int(i), value)
+#define RAW_STORE4(name, i, value) name##_store(uint(i), value)
 #define RAW_STORE1(name, i, value) imageStore(name, int(i), uvec4(value))
 #else
-#define DATA(slot, access, type, name) layout(set = 0, binding = slot, scalar) access buffer name##_block { type name[]; }
 #if LODESTONE_SPLIT_BUFFERS
 // An array is cut into segments of 2^segment_shift bytes. A binding shows either the array or, where its bit is set in
 // `addressed`, the addresses of the array's segments; all pipelines know at their creation which.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The compute kernels, compiled and checked at build time and carried in the binary.
 //
-// shaders/FOLDER/NAME.comp becomes two kernels: `FOLDER/NAME`, whose word and quad bindings are storage
-// buffers (LODESTONE_TEXEL_BUFFERS is 0), and `FOLDER/NAME_texel`, where they are storage texel buffers (it
-// is 1).
+// shaders/FOLDER/NAME.comp becomes four kernels (shaders/kernel.glsl): `FOLDER/NAME`, whose word and quad
+// bindings are storage buffers, `FOLDER/NAME_texel`, where they are storage texel buffers,
+// `FOLDER/NAME_pairs`, where all but quads that are only written are, and `FOLDER/NAME_split`, which gets the
+// addresses of large arrays.
 #pragma once
 
 #include <cstdint>

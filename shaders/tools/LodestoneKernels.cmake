@@ -1,7 +1,7 @@
 # lodestone_embed_kernels(TARGET ROOT NAMESPACE): compiles ROOT/FOLDER/NAME.comp, checks and embeds the result.
 #
-# Every source is compiled three times: for storage buffers, for storage texel buffers and for arrays split over several
-# buffers (shaders/kernel.glsl); spirv_prepare rejects what has other bits on other devices and forbids contraction;
+# Every source is compiled four times: for storage buffers, for storage texel buffers, for those but with quads stored as pairs of
+# 64-bit numbers, and for arrays split over several buffers (shaders/kernel.glsl); spirv_prepare rejects what has other bits on other devices and forbids contraction;
 # spirv-val judges the outcome. TARGET gets the arrays and a function `std::span<const lodestone::kernels::Kernel>
 # NAMESPACE::all_kernels()`. Kernels include from ROOT and from shaders/.
 
@@ -14,7 +14,7 @@ function(lodestone_embed_kernels target root namespace)
   set(names "")
   foreach(source ${sources})
     string(REGEX REPLACE "\\.comp$" "" name ${source})
-    foreach(variant "" _texel _split)
+    foreach(variant "" _texel _pairs _split)
       lodestone_embed_kernel(${target} ${root} ${source} ${name}${variant})
       list(APPEND names ${name}${variant})
     endforeach()
@@ -25,9 +25,13 @@ endfunction()
 # One source to one array, in three steps with a file each: NAME.raw.spv, NAME.spv, NAME.cpp.
 function(lodestone_embed_kernel target root source name)
   set(texel 0)
+  set(pairs 0)
   set(split 0)
   if(name MATCHES "_texel$")
     set(texel 1)
+  elseif(name MATCHES "_pairs$")
+    set(texel 1)
+    set(pairs 1)
   elseif(name MATCHES "_split$")
     set(split 1)
   endif()
@@ -38,7 +42,7 @@ function(lodestone_embed_kernel target root source name)
   add_custom_command(
     OUTPUT ${base}.raw.spv
     COMMAND ${LODESTONE_GLSLANG} --quiet -V --target-env vulkan1.2 $<$<CONFIG:Debug>:-g> -I${root} -I${LODESTONE_SHADERS}
-            -DLODESTONE_TEXEL_BUFFERS=${texel} -DLODESTONE_SPLIT_BUFFERS=${split} --depfile ${base}.d -o ${base}.raw.spv ${root}/${source}
+            -DLODESTONE_TEXEL_BUFFERS=${texel} -DLODESTONE_PAIR_STORES=${pairs} -DLODESTONE_SPLIT_BUFFERS=${split} --depfile ${base}.d -o ${base}.raw.spv ${root}/${source}
     DEPENDS ${root}/${source}
     DEPFILE ${base}.d
     COMMENT "Compiling kernel ${name}"

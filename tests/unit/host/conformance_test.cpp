@@ -149,6 +149,7 @@ class Conformance : public SetupTest {
 INSTANTIATE_TEST_SUITE_P(
     Devices, Conformance,
     testing::Values(Setup{"lavapipe_texel", Driver::lavapipe, TexelBuffers::always, true},
+                    Setup{"lavapipe_no_pairs", Driver::lavapipe, TexelBuffers::without_pairs, true},
                     Setup{"lavapipe_plain", Driver::lavapipe, TexelBuffers::never, true},
                     Setup{"swiftshader", Driver::swiftshader, TexelBuffers::automatic, true}),
     setup_name);

@@ -47,6 +47,7 @@ inline std::ostream& operator<<(std::ostream& out, const Setup& setup) {
 
 inline const auto all_setups =
     testing::Values(Setup{"lavapipe_texel_mapped", Driver::lavapipe, TexelBuffers::always, true},
+                    Setup{"lavapipe_no_pairs_mapped", Driver::lavapipe, TexelBuffers::without_pairs, true},
                     Setup{"lavapipe_plain_staged", Driver::lavapipe, TexelBuffers::never, false},
                     Setup{"lavapipe_split_mapped", Driver::lavapipe, TexelBuffers::always, true, 16384},
                     Setup{"swiftshader_split_staged", Driver::swiftshader, TexelBuffers::never, false, 20000},
