@@ -47,6 +47,7 @@ CpuPass find_pass(std::string_view kernel) {
       {"geometry_image/enter_instances", enter_instances},
       {"geometry_image/scan_blocks", scan_blocks},
       {"geometry_image/gather_rays", gather_rays},
+      {"geometry_image/list_rays", list_rays},
       {"geometry_image/local_rays", local_rays},
       {"geometry_image/portion_begin", portion_begin},
       {"geometry_image/portion_enter", portion_enter},

@@ -186,8 +186,8 @@ HWY_ATTR inline layout::TileAxes axes_of(const Range (&near)[3], const Range (&f
 // Of rays first + 0..63 those of the bits `waiting` that go together with the lowest of them, all from one
 // origin (`common`) or from near by; returns their bits, none where that is no ray.
 template <bool common, class Block>
-HWY_ATTR HWY_FLATTEN inline uint64_t load_beam(Block& block, const TraceTree& tree, uint32_t first, uint64_t waiting,
-                                   Beam& beam) {
+HWY_ATTR HWY_FLATTEN inline uint64_t load_beam(Block& block, const TraceTree& tree, uint32_t first,
+                                               uint64_t waiting, Beam& beam) {
   const Lanes d;
   const auto width = static_cast<uint32_t>(hn::Lanes(d));
   const uint32_t lowest = first + static_cast<uint32_t>(std::countr_zero(waiting));

@@ -26,6 +26,7 @@ void upper_leaves(const CpuDispatch& dispatch);
 void enter_instances(const CpuDispatch& dispatch);
 void scan_blocks(const CpuDispatch& dispatch);
 void gather_rays(const CpuDispatch& dispatch);
+void list_rays(const CpuDispatch& dispatch);
 void local_rays(const CpuDispatch& dispatch);
 void portion_begin(const CpuDispatch& dispatch);
 void portion_enter(const CpuDispatch& dispatch);

@@ -13,7 +13,8 @@ class TraceBoxes : public TraceKernel<Probe, 9> {
  public:
   using TraceKernel<Probe, 9>::TraceKernel;
 
-  void operator()(uint32_t index) {
+  void operator()(uint32_t invocation) {
+    const uint32_t index = this->ray_index(invocation);
     const layout::Ray ray = this->load_ray(index);
     const uint32_t root = this->root(index, moving_);
     object_ = this->load_object(root);

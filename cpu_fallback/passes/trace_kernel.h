@@ -10,7 +10,8 @@
 
 namespace lodestone::cpu_fallback {
 
-// `objects`, `roots`, `times` and the four buffers of levels of detail come in slots from this one on.
+// `objects`, `roots`, `times`, the four buffers of levels of detail and `ray_list` come in slots from this
+// one on.
 template <class Probe, size_t objects_slot>
 class TraceKernel : public Kernel<Probe> {
  public:
@@ -21,6 +22,10 @@ class TraceKernel : public Kernel<Probe> {
     layout::Hit best;
     glm::uvec4 place;  // as layout/trace.h says
   };
+
+  uint32_t ray_index(uint32_t invocation) {
+    return push_.listed != 0 ? this->load(ray_list_, invocation) : invocation;
+  }
 
   layout::Ray load_ray(uint32_t index) {
     const glm::uvec4 from = this->load(rays_, 2 * uint64_t(index)),
@@ -168,6 +173,7 @@ class TraceKernel : public Kernel<Probe> {
   Words collapses_ = this->words(objects_slot + 3);
   Quads node_details_ = this->quads(objects_slot + 4), coarse_quads_ = this->quads(objects_slot + 5),
         cones_ = this->quads(objects_slot + 6);
+  Words ray_list_ = this->words(objects_slot + 7);
   layout::Tolerance tolerance_{};
   bool any_hit_ = this->constant(0) != 0, instanced_ = this->constant(2) != 0;
   uint32_t segments_ = this->constant(3), visits_ = 0;

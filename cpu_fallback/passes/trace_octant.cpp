@@ -11,7 +11,8 @@ class TraceOctant : public NodesKernel<Probe, 8> {
  public:
   using NodesKernel<Probe, 8>::NodesKernel;
 
-  void operator()(uint32_t index) {
+  void operator()(uint32_t invocation) {
+    const uint32_t index = this->ray_index(invocation);
     const layout::Ray ray = this->load_ray(index);
     typename NodesKernel<Probe, 8>::Moving moving;
     const layout::ObjectRecord object = this->load_object(this->root(index, moving));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the traversals share: a ray, the object whose hierarchy it goes through, its hit, and its state from dispatch to
-// dispatch. Before this come their own buffers, `objects`, `roots`, `times` and those of layout/detail.h among them, push
-// constants and counters.
+// dispatch. Before this come their own buffers, `objects`, `roots`, `times`, those of layout/detail.h and `ray_list` among
+// them, push constants and counters.
 #include "layout/detail_nodes.h"
 #include "layout/motion.h"
 #include "layout/objects.h"
@@ -26,6 +26,12 @@ layout(constant_id = 7) const uint resumable = 1u;  // 0: all from the root, and
 uint node_visits = 0u;
 uint triangle_tests = 0u;
 uint subgroup_steps = 0u;
+
+uint ray_index() {
+  uint index = invocation();
+  if (push.listed != 0u) LOAD1(index, ray_list, index);
+  return index;
+}
 
 Ray load_ray(uint index) {
   uvec4 from;

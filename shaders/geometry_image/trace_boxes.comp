@@ -18,14 +18,15 @@ WORDS(12, readonly, collapses);
 QUADS(13, readonly, node_details);
 QUADS(14, readonly, coarse_quads);
 QUADS(15, readonly, cones);
-COUNTERS(16)
+WORDS(16, readonly, ray_list);
+COUNTERS(17)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"
 
 void main() {
-  uint index = invocation();
-  if (index >= push.rays) return;
+  if (invocation() >= push.rays) return;
+  uint index = ray_index();
   boxes_a_step = 4u;
   Ray ray = load_ray(index);
   Hit best;

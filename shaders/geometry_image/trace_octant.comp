@@ -13,13 +13,14 @@ WORDS(11, readonly, collapses);
 QUADS(12, readonly, node_details);
 QUADS(13, readonly, coarse_quads);
 QUADS(14, readonly, cones);
-COUNTERS(15)
+WORDS(15, readonly, ray_list);
+COUNTERS(16)
 
 #include "geometry_image/trace_nodes.glsl"
 
 void main() {
-  uint index = invocation();
-  if (index >= push.rays) return;
+  if (invocation() >= push.rays) return;
+  uint index = ray_index();
   Ray ray = load_ray(index);
   ObjectRecord object = load_object(load_root(index));
   Slabs slabs = make_slabs(ray, object.extent);

@@ -13,13 +13,14 @@ WORDS(12, readonly, collapses);
 QUADS(13, readonly, node_details);
 QUADS(14, readonly, coarse_quads);
 QUADS(15, readonly, cones);
-COUNTERS(16)
+WORDS(16, readonly, ray_list);
+COUNTERS(17)
 
 #include "geometry_image/trace_nodes.glsl"
 
 void main() {
-  uint index = invocation();
-  if (index >= push.rays) return;
+  if (invocation() >= push.rays) return;
+  uint index = ray_index();
   Ray ray = load_ray(index);
   ObjectRecord object = load_object(load_root(index));
   uint first_node = object.first_node;

@@ -20,7 +20,8 @@ WORDS(11, readonly, collapses);
 QUADS(12, readonly, node_details);
 QUADS(13, readonly, coarse_quads);
 QUADS(14, readonly, cones);
-COUNTERS(15)
+WORDS(15, readonly, ray_list);
+COUNTERS(16)
 PUSH(TracePush, push);
 
 #include "geometry_image/trace.glsl"

@@ -203,6 +203,7 @@ struct TracePush {
   vec3 camera;        // and the first cone, that all rays have
   float camera_width;
   float camera_spread;
+  uint listed;  // 1: only those of `ray_list` (layout/ray_list.h), which are `rays`
 };
 
 LODESTONE_LAYOUT_END

@@ -71,25 +71,36 @@ constexpr Binding camera_bindings[] = {
     "cones", quad, read                                                                    \
   }
 
+#define LIST_BINDINGS \
+  { "ray_list", word, read }
+
 constexpr Binding trace_threaded_bindings[] = {
     RAY_BINDINGS,          {"nodes_lo", quad, read}, {"nodes_hi", quad, read},
-    {"links", word, read}, OBJECT_BINDINGS,          DETAIL_BINDINGS};
+    {"links", word, read}, OBJECT_BINDINGS,          DETAIL_BINDINGS,
+    LIST_BINDINGS};
 
 constexpr Binding trace_octant_bindings[] = {
-    RAY_BINDINGS, {"nodes_lo", quad, read}, {"nodes_hi", quad, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
+    RAY_BINDINGS,    {"nodes_lo", quad, read}, {"nodes_hi", quad, read},
+    OBJECT_BINDINGS, DETAIL_BINDINGS,          LIST_BINDINGS};
 
 // The CPU's traversal.
 constexpr Binding trace_wide_bindings[] = {
-    RAY_BINDINGS, {"wide_nodes", structs, read}, {"leaf_map", word, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
+    RAY_BINDINGS, {"wide_nodes", structs, read}, {"leaf_map", word, read}, OBJECT_BINDINGS, DETAIL_BINDINGS,
+    LIST_BINDINGS};
 
-constexpr Binding trace_boxes_bindings[] = {
-    RAY_BINDINGS,    {"boxes", quad, read}, {"leaf_map", word, read}, {"trails", quad, read_write},
-    OBJECT_BINDINGS, DETAIL_BINDINGS};
+constexpr Binding trace_boxes_bindings[] = {RAY_BINDINGS,
+                                            {"boxes", quad, read},
+                                            {"leaf_map", word, read},
+                                            {"trails", quad, read_write},
+                                            OBJECT_BINDINGS,
+                                            DETAIL_BINDINGS,
+                                            LIST_BINDINGS};
 
 // Its leaf map is read in pairs of slots.
-constexpr Binding trace_tile_bindings[] = {
-    RAY_BINDINGS, {"boxes", quad, read}, {"leaf_map", quad, read}, OBJECT_BINDINGS, DETAIL_BINDINGS};
+constexpr Binding trace_tile_bindings[] = {RAY_BINDINGS,    {"boxes", quad, read}, {"leaf_map", quad, read},
+                                           OBJECT_BINDINGS, DETAIL_BINDINGS,       LIST_BINDINGS};
 
+#undef LIST_BINDINGS
 #undef DETAIL_BINDINGS
 #undef OBJECT_BINDINGS
 #undef RAY_BINDINGS
@@ -140,6 +151,10 @@ constexpr Binding enter_instances_bindings[] = {{"rays", quad, read},
 
 constexpr Binding scan_blocks_bindings[] = {
     {"block_counts", structs, read_write}, {"block_starts", word, write}, {"entered", structs, read_write}};
+
+constexpr Binding list_rays_bindings[] = {{"rays", quad, read},         {"hits", quad, read_write},
+                                          {"states", quad, read_write}, {"block_counts", structs, read_write},
+                                          {"block_starts", word, read}, {"ray_list", word, write}};
 
 constexpr Binding gather_rays_bindings[] = {{"found", word, read},
                                             {"block_starts", word, read},
@@ -325,6 +340,8 @@ const PassDecl upper_boxes{"upper", "geometry_image/boxes", boxes_bindings, size
 const PassDecl enter_instances{"trace", "geometry_image/enter_instances", enter_instances_bindings,
                                sizeof(EnterPush)};
 const PassDecl scan_blocks{"trace", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
+const PassDecl list_rays{"trace", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
+const PassDecl occlude_list{"occlude", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
 const PassDecl gather_rays{"trace", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
 const PassDecl local_rays{"trace", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
 const PassDecl occlude_enter{"occlude", "geometry_image/enter_instances", enter_instances_bindings,

@@ -20,6 +20,13 @@ namespace {
 // From how many pixels for each quad of the scene on tiles are worth it.
 constexpr uint64_t pixels_a_quad = 8;
 
+// Fewer rays are not worth finding out which have something to do, and more than this share of them not worth
+// a list.
+constexpr uint32_t fewest_listed = 1024;
+bool is_sparse(uint32_t some, uint32_t of) {
+  return 4 * uint64_t(some) <= 3 * uint64_t(of);
+}
+
 // `one_tree`: for all rays, at full resolution. `sparse`: quads are large in the picture. A tile tests all
 // that its 64 rays are near to, and where many quads lie between two rays that is many times what `wide` does
 // (docs/measurements.md).
@@ -55,7 +62,8 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
       objects_a_segment_(static_cast<uint32_t>(atlas.objects.size())),
       image_texels_(static_cast<uint32_t>(atlas.texel_map.size())),
       detail_(detail),
-      pending_(backend, {"pending", 1, 4}) {
+      pending_(backend, {"pending", 1, 4}),
+      listed_(backend, {"listed", 1, 4}) {
   place_trees(atlas);
   records_.resize(trees_.size());
   objects_ = Buffer(backend, {"objects", 4 * uint64_t(trees_.size()), 16});
@@ -236,7 +244,29 @@ uint32_t Tracing::take_pending() {
   return count;
 }
 
-void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count,
+std::optional<uint32_t> Tracing::list_rays(const RayBuffers& rays, uint32_t count, const Round& round,
+                                           bool shadow, std::optional<uint32_t> waiting) {
+  if (waiting && !is_sparse(*waiting, count)) return {};
+  const uint32_t blocks = (count + layout::list_block - 1) / layout::list_block;
+  const auto run_stage = [&](uint32_t stage) {
+    run(shadow ? passes::occlude_list : passes::list_rays,
+        {rays.rays.id(), rays.hits.id(), rays.states.id(), rays.block_counts.id(), rays.block_starts.id(),
+         rays.list.id()},
+        layout::CountPush{count}, blocks, {stage, round.resume, round.resumable ? 1u : 0u});
+  };
+  run_stage(layout::list_count);
+  run(shadow ? passes::occlude_scan : passes::scan_blocks,
+      {rays.block_counts.id(), rays.block_starts.id(), listed_.id()}, layout::CountPush{blocks}, 1);
+  if (!waiting) {
+    waiting = 0;
+    backend_.download(listed_.id(), std::as_writable_bytes(std::span(&*waiting, 1)), 0);
+    if (!is_sparse(*waiting, count)) return {};
+  }
+  run_stage(layout::list_place);
+  return waiting;
+}
+
+void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, bool listed,
                        const TraceQuery& query, const Round& round, const Buffer* roots) {
   std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
                                    rays.states.id(), rays.steps.id(), pending_.id()};
@@ -244,9 +274,9 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
       query.any_hit ? 1u : 0u,      query.steps ? 1u : 0u,    roots != nullptr ? 1u : 0u, segments_,
       detail_ != nullptr ? 1u : 0u, round.resumable ? 1u : 0u};
   const bool scattered = detail_ != nullptr && query.scattered;
-  layout::TracePush push{count,         round.resume,       loop_budget_,
-                         image_texels_, objects_a_segment_, scattered ? 1u : 0u,
-                         camera_.apex,  camera_.width,      camera_.spread};
+  layout::TracePush push{
+      count,        round.resume,  loop_budget_,   image_texels_,   objects_a_segment_, scattered ? 1u : 0u,
+      camera_.apex, camera_.width, camera_.spread, listed ? 1u : 0u};
   // What the constants leave out nothing reads; any words and quads will do.
   std::vector<BufferId> of_objects = {objects_.id(), roots != nullptr ? roots->id() : rays.steps.id(),
                                       segments_ > 0 ? query.times->id() : rays.steps.id()};
@@ -257,6 +287,7 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   } else {
     of_objects.insert(of_objects.end(), {rays.steps.id(), geometry.id(), geometry.id(), geometry.id()});
   }
+  of_objects.push_back(rays.list.id());
   if (uses_boxes()) {
     buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), rays.trails.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
@@ -291,7 +322,7 @@ void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uin
   run(passes::trace_tile,
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
        boxes_.id(), leaf_map_.id(), objects_.id(), rays.steps.id(), rays.steps.id(), rays.steps.id(),
-       geometry.id(), geometry.id(), geometry.id()},
+       geometry.id(), geometry.id(), geometry.id(), rays.list.id()},
       push, tiles * layout::tile_lanes, {0, 0, 0, 0, 0, round.resumable ? 1u : 0u});
 }
 
@@ -301,16 +332,25 @@ bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t cou
   // Most rays come to their end in the first dispatch, which need not keep what only the next ones read.
   Round round{query.restarted ? layout::resume_states : layout::resume_nothing,
               query.restarted || query.judged || query.steps};
+  // The CPU passes over rays by itself, rays through instances lie side by side already, and all of the
+  // camera's are there.
+  const bool lists = !on_cpu_ && roots == nullptr && !query.steps && count >= fewest_listed;
+  std::optional<uint32_t> waiting;
+  if (query.common_origin && !query.restarted) waiting = count;
   do {
     if (interrupted && interrupted()) return false;
     clear_pending();
     if (tiles && round.resume == layout::resume_nothing) {
       dispatch_tiles(geometry, rays, count, round);  // what does not go together is left to the next
     } else {
-      dispatch(geometry, rays, count, query, round, roots);
+      std::optional<uint32_t> listed;
+      if (lists) listed = list_rays(rays, count, round, query.shadow, waiting);
+      if (listed != 0u)
+        dispatch(geometry, rays, listed.value_or(count), listed.has_value(), query, round, roots);
     }
     round = {round.resumable ? layout::resume_states : layout::resume_unanswered, true};
-  } while (take_pending() != 0);
+    waiting = take_pending();
+  } while (waiting != 0u);
   return true;
 }
 

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lodestone/geometry_image/atlas.h"
 #include "lodestone/layout/detail.h"
 #include "lodestone/layout/objects.h"
+#include "lodestone/layout/ray_list.h"
 #include "lodestone/render/backend.h"
 #include "lodestone/render/hierarchy_levels.h"
 #include "lodestone/render/renderer.h"
@@ -31,10 +33,16 @@ struct RayBuffers {
         states(backend, {prefix + "states", count, 16}),
         trails(backend, {prefix + "trails", count, 16}),
         steps(backend, {prefix + "steps", count, 4}),
+        list(backend, {prefix + "list", count, 4}),
+        block_counts(backend,
+                     {prefix + "list_counts", (count + layout::list_block - 1) / layout::list_block, 4}),
+        block_starts(backend,
+                     {prefix + "list_starts", (count + layout::list_block - 1) / layout::list_block, 4}),
         instances(backend, {prefix + "instances", placed ? count : 0, 4}),
         places(backend, {prefix + "places", placed ? count : 0, 16}),
         times(backend, {prefix + "times", timed ? count : 0, 4}) {}
   Buffer rays, hits, states, trails, steps;
+  Buffer list, block_counts, block_starts;  // layout/ray_list.h
   Buffer instances, places;
   Buffer times;  // while the shutter is open, in [0, 1]
 };
@@ -114,9 +122,13 @@ class Tracing {
     uint32_t resume = layout::resume_nothing;
     bool resumable = true;
   };
+  // How many of the first `count` rays a dispatch has to do with, if they are few enough to be put side by
+  // side, in rays.list; `waiting`: how many those are, where that is known. None: all are to be looked at.
+  std::optional<uint32_t> list_rays(const RayBuffers& rays, uint32_t count, const Round& round, bool shadow,
+                                    std::optional<uint32_t> waiting);
   void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const Round& round);
-  void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const TraceQuery& query,
-                const Round& round, const Buffer* roots);
+  void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, bool listed,
+                const TraceQuery& query, const Round& round, const Buffer* roots);
 
   Backend& backend_;
   const Buffer& leaf_map_;
@@ -133,7 +145,7 @@ class Tracing {
   Buffer nodes_lo_, nodes_hi_, links_;  // 32 bits
   Buffer leaf_blocks_, leaf_groups_;
   Buffer boxes_, wide_nodes_;  // 16 bits, the second for the CPU
-  Buffer pending_;
+  Buffer pending_, listed_;    // how many
 };
 
 }  // namespace lodestone::render

@@ -61,12 +61,12 @@ void ThreadedKernel::load_rays(const Rays& rays) {
 }
 
 void ThreadedKernel::trace() {
-  // Without instances, motion and levels of detail the last six are read by nothing.
-  const std::array<render::BufferId, 16> buffers = {
-      rays_.rays.id(),  geometry_.id(), rays_.hits.id(),  rays_.states.id(),
-      rays_.steps.id(), pending_.id(),  nodes_lo_.id(),   nodes_hi_.id(),
-      links_.id(),      objects_.id(),  rays_.steps.id(), rays_.steps.id(),
-      rays_.steps.id(), geometry_.id(), geometry_.id(),   geometry_.id()};
+  // Without instances, motion, levels of detail and a list of rays the last seven are read by nothing.
+  const std::array<render::BufferId, 17> buffers = {
+      rays_.rays.id(),  geometry_.id(),   rays_.hits.id(),  rays_.states.id(), rays_.steps.id(),
+      pending_.id(),    nodes_lo_.id(),   nodes_hi_.id(),   links_.id(),       objects_.id(),
+      rays_.steps.id(), rays_.steps.id(), rays_.steps.id(), geometry_.id(),    geometry_.id(),
+      geometry_.id(),   rays_.steps.id()};
   layout::TracePush push{};
   push.rays = ray_count_;
   push.budget = loop_budget;
