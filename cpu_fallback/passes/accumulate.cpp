@@ -16,7 +16,9 @@ namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 template <class Probe>
 class Accumulate : public VaryingKernel<Probe> {
  public:
-  using VaryingKernel<Probe>::VaryingKernel;
+  explicit Accumulate(const CpuDispatch& dispatch) : VaryingKernel<Probe>(dispatch) {
+    if (this->constant(0) != 0) this->stand_for(this->words(3).words + 1);
+  }
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(shadow_hits_);

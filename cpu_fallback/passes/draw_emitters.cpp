@@ -25,7 +25,9 @@ class DrawEmitters : public SurfaceKernel<Probe, source_count, is_layered> {
   using Base = SurfaceKernel<Probe, source_count, is_layered>;
 
  public:
-  using Base::Base;
+  explicit DrawEmitters(const CpuDispatch& dispatch) : Base(dispatch) {
+    if (push_.vertex != 0) this->stand_for(this->words(24).words + 1);
+  }
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);

@@ -22,7 +22,10 @@ HWY_ATTR inline DrawnLight select(bvec1 condition, const DrawnLight& yes, const 
 template <class Probe, uint32_t source_count, bool is_layered>
 class PathVertex : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 26> {
  public:
-  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 26>::EnvironmentKernel;
+  explicit PathVertex(const CpuDispatch& dispatch)
+      : EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 26>(dispatch) {
+    if (push_.vertex != 0) this->stand_for(going_on_.words + 1);
+  }
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);

@@ -24,7 +24,7 @@ class TraceKernel : public Kernel<Probe> {
   };
 
   uint32_t ray_index(uint32_t invocation) {
-    return push_.listed != 0 ? this->load(ray_list_, invocation) : invocation;
+    return push_.listed != 0 ? this->load(ray_list_, uint64_t(invocation) + 1) : invocation;
   }
 
   layout::Ray load_ray(uint32_t index) {

@@ -34,11 +34,21 @@ class VaryingKernel : public Kernel<Probe> {
   HWY_ATTR void begin(uint32_t first, uint32_t count) {
     first_ = first;
     activate(first_lanes(count));
+    if (list_ == nullptr) return;
+    for (uint32_t lane = 0; lane < lane_count; ++lane)
+      own_.at[lane] = list_[first + std::min(lane, count - 1)];
+    count_read(1);
   }
 
  protected:
+  // From now on invocation i stands for element list[i].
+  void stand_for(const uint32_t* list) { list_ = list; }
+
   // Their numbers.
-  HWY_ATTR uvec1 own_index() const { return hn::Iota(Unsigneds(), first_); }
+  HWY_ATTR uvec1 own_index() const {
+    if (list_ != nullptr) return own_.lanes();
+    return hn::Iota(Unsigneds(), first_);
+  }
 
   HWY_ATTR bvec1 active() const { return active_; }
   uint32_t active_count() const { return static_cast<uint32_t>(std::popcount(bits_)); }
@@ -86,12 +96,10 @@ class VaryingKernel : public Kernel<Probe> {
   // The same with the invocation's own number for i, which is faster.
   HWY_ATTR uvec4 load_own(const Quads& buffer, uint32_t stride = 1, uint32_t offset = 0) {
     count_read(4);
-    return gather(buffer,
-                  [&](uint32_t lane) HWY_ATTR { return (uint64_t{first_} + lane) * stride + offset; });
+    return gather(buffer, [&](uint32_t lane) HWY_ATTR { return own_place(lane) * stride + offset; });
   }
   HWY_ATTR void store_own(const Quads& buffer, const uvec4& value, uint32_t stride = 1, uint32_t offset = 0) {
-    scatter(buffer, value,
-            [&](uint32_t lane) HWY_ATTR { return (uint64_t{first_} + lane) * stride + offset; });
+    scatter(buffer, value, [&](uint32_t lane) HWY_ATTR { return own_place(lane) * stride + offset; });
   }
 
   // Words an active invocation.
@@ -107,6 +115,9 @@ class VaryingKernel : public Kernel<Probe> {
   }
 
   bool is_active(uint32_t lane) const { return (bits_ >> lane & 1) != 0; }
+  uint64_t own_place(uint32_t lane) const {
+    return list_ != nullptr ? own_.at[lane] : uint64_t{first_} + lane;
+  }
 
   // `place`: the quad of a lane.
   template <class Place>
@@ -138,6 +149,8 @@ class VaryingKernel : public Kernel<Probe> {
   static constexpr uint32_t all_bits = (1u << lane_count) - 1;
 
   uint32_t first_ = 0;  // invocation
+  const uint32_t* list_ = nullptr;
+  LaneWords own_{uvec1(0u)};  // of list_
   bvec1 active_;
   uint32_t bits_ = 0;  // of active_
 };

@@ -9,12 +9,15 @@
 QUADS(0, readonly, shadow_hits);
 QUADS(1, readonly, contributions);
 QUADS(2, restrict, radiance);
-COUNTERS(3)
+WORDS(3, readonly, ray_list);
+COUNTERS(4)
 PUSH(CountPush, push);
+layout(constant_id = 2) const uint listed = 0u;  // 1: only for those rays
 
 void main() {
   uint index = invocation();
   if (index >= push.count) return;
+  if (listed != 0u) LOAD1(index, ray_list, index + 1u);
   uvec4 hit;
   LOAD4(hit, shadow_hits, index);
   if (hit.w == no_index) {

@@ -10,7 +10,8 @@ WORDS(20, readonly, emitter_texels);
 WORDS(21, readonly, emitter_objects);
 WORDS(22, readonly, instance_numbers);
 QUADS(23, writeonly, drawn_points);
-COUNTERS(24)
+WORDS(24, readonly, ray_list);
+COUNTERS(25)
 PUSH(EmitterPush, push);
 
 #include "layout/draw_emitter.h"
@@ -18,6 +19,7 @@ PUSH(EmitterPush, push);
 void main() {
   uint index = invocation();
   if (index >= push.rays) return;
+  if (push.vertex != 0u) LOAD1(index, ray_list, index + 1u);
   uvec4 hit;
   uvec4 along;
   LOAD4(hit, hits, index);

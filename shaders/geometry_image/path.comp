@@ -14,7 +14,7 @@ QUADS(21, writeonly, contributions);
 QUADS(22, writeonly, shadow_rays);
 QUADS(23, restrict, radiance);
 QUADS(24, restrict, paths);
-STRUCTS(25, restrict, uint, going_on);
+STRUCTS(25, restrict, uint, going_on);  // how many; behind the first vertex a list of the rays that this is about
 QUADS(26, readonly, environment_quads);
 WORDS(27, readonly, environment_cells);
 QUADS(28, readonly, drawn_points);
@@ -76,6 +76,10 @@ DrawnLight draw_light(uint index, Surface surface, float choice, vec2 xi) {
 void main() {
   uint index = invocation();
   if (index >= push.rays) return;
+  if (push.vertex != 0u) {
+    index = going_on[index + 1u];
+    count_read(1u);
+  }
   uvec4 hit;
   uvec4 along;
   LOAD4(hit, hits, index);

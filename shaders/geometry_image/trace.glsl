@@ -29,7 +29,7 @@ uint subgroup_steps = 0u;
 
 uint ray_index() {
   uint index = invocation();
-  if (push.listed != 0u) LOAD1(index, ray_list, index);
+  if (push.listed != 0u) LOAD1(index, ray_list, index + 1u);
   return index;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The rays that a dispatch of a traversal has to do with, put side by side: a lane of a device that runs lanes as a
-// vector is lost where its ray is at its end already, and after a bounce most are. The order stays, which is that of
-// pixels; to sort rays by direction and place gives no more than it costs (docs/measurements.md).
+// The rays that a dispatch has to do with, put side by side: a lane of a device that runs lanes as a vector is lost
+// where its ray is at its end already, and after a bounce most are. A list is words: how many, then their numbers. Their
+// order stays, which is that of pixels; to sort rays by direction and place gives no more than it costs
+// (docs/measurements.md).
 #ifndef LODESTONE_LAYOUT_RAY_LIST_H
 #define LODESTONE_LAYOUT_RAY_LIST_H
 

@@ -17,8 +17,8 @@ namespace lodestone::render {
 
 // How a pass sees a buffer. `word` and `quad` buffers (4 and 16 bytes an element) may be of any size: a
 // device that has texel buffers of 2^27 elements gets them as storage texel buffers (R32ui, RGBA32ui, and the
-// kernel variants `_texel` and `_pairs`), others as storage buffers, and what neither can show is split over several
-// buffers (the variant `_split`). `structs` is always one storage buffer.
+// kernel variants `_texel` and `_pairs`), others as storage buffers, and what neither can show is split over
+// several buffers (the variant `_split`). `structs` is always one storage buffer.
 enum class BindingKind : uint8_t { structs, word, quad };
 enum class Access : uint8_t { read, write, read_write };
 

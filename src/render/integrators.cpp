@@ -20,12 +20,35 @@ uint32_t Renderer::State::counted() {
 }
 
 // What the shadow rays carry, where nothing is in their way. `scattered`: they come from rays that have been.
-bool Renderer::State::add_unblocked(uint32_t count, bool scattered, const Interrupted& interrupted) {
-  if (!trace_masked(shadow, count, {.any_hit = true, .shadow = true, .scattered = scattered}, interrupted))
-    return false;
-  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance().id()}, layout::CountPush{count},
-      count);
+bool Renderer::State::add_unblocked(uint32_t count, uint32_t listed, bool scattered,
+                                    const Interrupted& interrupted) {
+  TraceQuery query{.any_hit = true, .shadow = true, .scattered = scattered};
+  if (listed != 0) {
+    query.some = &going_on;
+    query.some_count = listed;
+  }
+  if (!trace_masked(shadow, count, query, interrupted)) return false;
+  const uint32_t added = listed != 0 ? listed : count;
+  run(passes::accumulate, {shadow.hits.id(), contributions.id(), radiance().id(), going_on.id()},
+      layout::CountPush{added}, added, {listed != 0 ? 1u : 0u});
   return true;
+}
+
+// Of `count` paths, all or those of the list, the ones that go on become the list; the others cast no shadow
+// rays any more.
+void Renderer::State::list_paths(uint32_t count, bool listed) {
+  std::swap(going_on, went_on);
+  const uint32_t blocks = (count + layout::list_block - 1) / layout::list_block;
+  const auto run_stage = [&](uint32_t stage) {
+    run(passes::list_paths,
+        {primary.rays.id(), primary.hits.id(), primary.states.id(), primary.block_counts.id(),
+         primary.block_starts.id(), went_on.id(), going_on.id(), shadow.rays.id()},
+        layout::CountPush{count}, blocks, {stage, layout::resume_nothing, 0, listed ? 1u : 0u, 1});
+  };
+  run_stage(layout::list_count);
+  run(passes::scan_paths, {primary.block_counts.id(), primary.block_starts.id(), going_on.id()},
+      layout::CountPush{blocks}, 1);
+  run_stage(layout::list_place);
 }
 
 // Of every light, at what the rays have hit; `recursion`: see layout/recursion.h.
@@ -37,7 +60,7 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, con
             primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance().id(),
                       environment.quads.id(), environment.cells.id(), paths.id()}),
         push, push.rays, surface_constants(recursion, true));
-    if (!add_unblocked(push.rays, push.vertex > 0, interrupted)) return false;
+    if (!add_unblocked(push.rays, 0, push.vertex > 0, interrupted)) return false;
   }
   return true;
 }
@@ -47,7 +70,7 @@ bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrup
       surface_buffers(primary, {primary.rays.id(), contributions.id(), shadow.rays.id(), radiance().id()}),
       layout::AmbientPush{rays.first_ray, rays.rays, rays.sample_index, rays.first, settings.ao_distance},
       rays.rays, plain_constants());
-  return add_unblocked(rays.rays, false, interrupted);
+  return add_unblocked(rays.rays, 0, false, interrupted);
 }
 
 // Direct light wherever a ray arrives, until none goes on.
@@ -90,10 +113,11 @@ void Renderer::State::draw_emitters(const layout::PathPush& path) {
                                  emitters->half_step()};
   const uint32_t placing = instances ? layout::placing_instances : 0;
   run(passes::draw_emitters,
-      surface_buffers(
-          primary, shining.buffers(), primary.hits.id(), emitter_frame ? emitter_frame.id() : frame.id(),
-          {primary.rays.id(), emitters->texels().id(), emitters->objects().id(),
-           instances ? instances->numbers().id() : emitters->objects().id(), emitters->drawn().id()}),
+      surface_buffers(primary, shining.buffers(), primary.hits.id(),
+                      emitter_frame ? emitter_frame.id() : frame.id(),
+                      {primary.rays.id(), emitters->texels().id(), emitters->objects().id(),
+                       instances ? instances->numbers().id() : emitters->objects().id(),
+                       emitters->drawn().id(), going_on.id()}),
       push, push.rays, {shining.sources(), materials.layered, 0, 0, placing, settings.shutter_segments});
 }
 
@@ -101,8 +125,10 @@ void Renderer::State::draw_emitters(const layout::PathPush& path) {
 bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted& interrupted) {
   // Where other integrators have `recursion`, whether there are emitters.
   const auto constants = surface_constants(emitters ? 1 : 0, true);
+  uint32_t listed = 0;  // paths of the list `going_on`; at the first vertex there is none
   for (uint32_t vertex = 0;; ++vertex) {
-    const layout::PathPush push{rays.first_ray,          rays.rays,
+    const uint32_t count = vertex == 0 ? rays.rays : listed;
+    const layout::PathPush push{rays.first_ray,          count,
                                 rays.sample_index,       vertex,
                                 settings.max_bounces,    light_count,
                                 light_choice.step,       vertex == 0 ? rays.first : 0,
@@ -114,10 +140,13 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
                                   radiance().id(), paths.id(), going_on.id(), environment.quads.id(),
                                   environment.cells.id(), emitters ? emitters->drawn().id() : paths.id()}),
         push, push.rays, constants);
-    const bool last = counted() == 0;
-    if (!add_unblocked(push.rays, vertex > 0, interrupted)) return false;
-    if (last) return true;
-    if (!trace_masked(primary, push.rays, {.scattered = true}, interrupted)) return false;
+    const uint32_t going = counted();
+    if (!add_unblocked(rays.rays, listed, vertex > 0, interrupted)) return false;
+    if (going == 0) return true;
+    list_paths(count, vertex > 0);
+    listed = going;
+    const TraceQuery query{.scattered = true, .some = &going_on, .some_count = listed};
+    if (!trace_masked(primary, rays.rays, query, interrupted)) return false;
   }
 }
 

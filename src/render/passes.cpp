@@ -154,7 +154,8 @@ constexpr Binding scan_blocks_bindings[] = {
 
 constexpr Binding list_rays_bindings[] = {{"rays", quad, read},         {"hits", quad, read_write},
                                           {"states", quad, read_write}, {"block_counts", structs, read_write},
-                                          {"block_starts", word, read}, {"ray_list", word, write}};
+                                          {"block_starts", word, read}, {"some", word, read},
+                                          {"ray_list", word, write},    {"shadow_rays", quad, write}};
 
 constexpr Binding gather_rays_bindings[] = {{"found", word, read},
                                             {"block_starts", word, read},
@@ -274,7 +275,8 @@ constexpr Binding draw_emitters_bindings[] = {SURFACE_BINDINGS,
                                               {"emitter_texels", word, read},
                                               {"emitter_objects", word, read},
                                               {"instance_numbers", word, read},
-                                              {"drawn_points", quad, write}};
+                                              {"drawn_points", quad, write},
+                                              {"ray_list", word, read}};
 
 constexpr Binding aov_bindings[] = {
     SURFACE_BINDINGS, {"rays", quad, read}, {"steps", word, read}, {"aovs", quad, write}};
@@ -286,8 +288,10 @@ constexpr Binding features_bindings[] = {
 #undef SURFACE_BINDINGS
 #undef SURFACE_BINDINGS_OF
 
-constexpr Binding accumulate_bindings[] = {
-    {"shadow_hits", quad, read}, {"contributions", quad, read}, {"radiance", quad, read_write}};
+constexpr Binding accumulate_bindings[] = {{"shadow_hits", quad, read},
+                                           {"contributions", quad, read},
+                                           {"radiance", quad, read_write},
+                                           {"ray_list", word, read}};
 
 constexpr Binding resolve_bindings[] = {
     {"frame", structs, read}, {"radiance", quad, read}, {"beauty", quad, write}, {"display", quad, write}};
@@ -341,6 +345,8 @@ const PassDecl enter_instances{"trace", "geometry_image/enter_instances", enter_
                                sizeof(EnterPush)};
 const PassDecl scan_blocks{"trace", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
 const PassDecl list_rays{"trace", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
+const PassDecl list_paths{"shade", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
+const PassDecl scan_paths{"shade", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
 const PassDecl occlude_list{"occlude", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
 const PassDecl gather_rays{"trace", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
 const PassDecl local_rays{"trace", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};

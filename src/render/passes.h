@@ -11,7 +11,8 @@ extern const PassDecl links, blend, relax_begin, relax_measure, relax_move, rast
     wide_nodes, boxes_blocks, boxes_leaves, boxes;
 extern const PassDecl detail_begin, detail_measure, detail_settle, detail_end;
 extern const PassDecl place_instances, sort_keys, upper_leaves, upper_boxes;
-extern const PassDecl enter_instances, scan_blocks, gather_rays, local_rays, list_rays, occlude_list;
+extern const PassDecl enter_instances, scan_blocks, gather_rays, local_rays, list_rays, occlude_list,
+    list_paths, scan_paths;
 extern const PassDecl portion_begin, portion_enter, portion_end, occlude_portion_begin, occlude_portion_enter,
     occlude_portion_end;
 extern const PassDecl occlude_enter, occlude_scan, occlude_gather, occlude_local;

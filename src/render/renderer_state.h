@@ -53,7 +53,9 @@ struct Renderer::State {
   std::vector<Buffer> radiances;  // sums of samples: of one batch after the other, or of each
   uint32_t batch = 0;
   layout::FrameRecord frame_record{};
-  Buffer contributions, paths, branches, going_on, beauty, display, aovs;
+  Buffer contributions, paths, branches, beauty, display, aovs;
+  Buffer going_on;  // how many rays go on; with `path` a list (layout/ray_list.h) ...
+  Buffer went_on;   // ... and that of the vertex before
   uint32_t light_count = 0;
   LightChoice light_choice;  // of `path`
   double scene_radius = 0;   // of a sphere round it, at rest
@@ -163,7 +165,9 @@ struct Renderer::State {
   bool recursive_sample(const layout::RayPush& rays, uint32_t recursion, const Interrupted& interrupted);
   void draw_emitters(const layout::PathPush& push);
   bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool add_unblocked(uint32_t count, bool scattered, const Interrupted& interrupted);
+  // `listed`: only of so many rays, those of `going_on`; 0: of the first `count`.
+  bool add_unblocked(uint32_t count, uint32_t listed, bool scattered, const Interrupted& interrupted);
+  void list_paths(uint32_t count, bool listed);
   void count_from_zero();
   uint32_t counted();
 };

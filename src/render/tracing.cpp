@@ -62,8 +62,7 @@ Tracing::Tracing(Backend& backend, const geometry_image::Atlas& atlas, const Buf
       objects_a_segment_(static_cast<uint32_t>(atlas.objects.size())),
       image_texels_(static_cast<uint32_t>(atlas.texel_map.size())),
       detail_(detail),
-      pending_(backend, {"pending", 1, 4}),
-      listed_(backend, {"listed", 1, 4}) {
+      pending_(backend, {"pending", 1, 4}) {
   place_trees(atlas);
   records_.resize(trees_.size());
   objects_ = Buffer(backend, {"objects", 4 * uint64_t(trees_.size()), 16});
@@ -245,28 +244,29 @@ uint32_t Tracing::take_pending() {
 }
 
 std::optional<uint32_t> Tracing::list_rays(const RayBuffers& rays, uint32_t count, const Round& round,
-                                           bool shadow, std::optional<uint32_t> waiting) {
+                                           const TraceQuery& query, std::optional<uint32_t> waiting) {
   if (waiting && !is_sparse(*waiting, count)) return {};
   const uint32_t blocks = (count + layout::list_block - 1) / layout::list_block;
   const auto run_stage = [&](uint32_t stage) {
-    run(shadow ? passes::occlude_list : passes::list_rays,
+    run(query.shadow ? passes::occlude_list : passes::list_rays,
         {rays.rays.id(), rays.hits.id(), rays.states.id(), rays.block_counts.id(), rays.block_starts.id(),
-         rays.list.id()},
-        layout::CountPush{count}, blocks, {stage, round.resume, round.resumable ? 1u : 0u});
+         query.some != nullptr ? query.some->id() : rays.steps.id(), rays.list.id(), rays.states.id()},
+        layout::CountPush{count}, blocks,
+        {stage, round.resume, round.resumable ? 1u : 0u, query.some != nullptr ? 1u : 0u});
   };
   run_stage(layout::list_count);
-  run(shadow ? passes::occlude_scan : passes::scan_blocks,
-      {rays.block_counts.id(), rays.block_starts.id(), listed_.id()}, layout::CountPush{blocks}, 1);
+  run(query.shadow ? passes::occlude_scan : passes::scan_blocks,
+      {rays.block_counts.id(), rays.block_starts.id(), rays.list.id()}, layout::CountPush{blocks}, 1);
   if (!waiting) {
     waiting = 0;
-    backend_.download(listed_.id(), std::as_writable_bytes(std::span(&*waiting, 1)), 0);
+    backend_.download(rays.list.id(), std::as_writable_bytes(std::span(&*waiting, 1)), 0);
     if (!is_sparse(*waiting, count)) return {};
   }
   run_stage(layout::list_place);
   return waiting;
 }
 
-void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, bool listed,
+void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const Buffer* list,
                        const TraceQuery& query, const Round& round, const Buffer* roots) {
   std::vector<BufferId> buffers = {rays.rays.id(),   geometry.id(),   rays.hits.id(),
                                    rays.states.id(), rays.steps.id(), pending_.id()};
@@ -274,9 +274,16 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
       query.any_hit ? 1u : 0u,      query.steps ? 1u : 0u,    roots != nullptr ? 1u : 0u, segments_,
       detail_ != nullptr ? 1u : 0u, round.resumable ? 1u : 0u};
   const bool scattered = detail_ != nullptr && query.scattered;
-  layout::TracePush push{
-      count,        round.resume,  loop_budget_,   image_texels_,   objects_a_segment_, scattered ? 1u : 0u,
-      camera_.apex, camera_.width, camera_.spread, listed ? 1u : 0u};
+  layout::TracePush push{count,
+                         round.resume,
+                         loop_budget_,
+                         image_texels_,
+                         objects_a_segment_,
+                         scattered ? 1u : 0u,
+                         camera_.apex,
+                         camera_.width,
+                         camera_.spread,
+                         list != nullptr ? 1u : 0u};
   // What the constants leave out nothing reads; any words and quads will do.
   std::vector<BufferId> of_objects = {objects_.id(), roots != nullptr ? roots->id() : rays.steps.id(),
                                       segments_ > 0 ? query.times->id() : rays.steps.id()};
@@ -287,7 +294,7 @@ void Tracing::dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t 
   } else {
     of_objects.insert(of_objects.end(), {rays.steps.id(), geometry.id(), geometry.id(), geometry.id()});
   }
-  of_objects.push_back(rays.list.id());
+  of_objects.push_back(list != nullptr ? list->id() : rays.steps.id());
   if (uses_boxes()) {
     buffers.insert(buffers.end(), {boxes_.id(), leaf_map_.id(), rays.trails.id()});
     buffers.insert(buffers.end(), of_objects.begin(), of_objects.end());
@@ -322,7 +329,7 @@ void Tracing::dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uin
   run(passes::trace_tile,
       {rays.rays.id(), geometry.id(), rays.hits.id(), rays.states.id(), rays.steps.id(), pending_.id(),
        boxes_.id(), leaf_map_.id(), objects_.id(), rays.steps.id(), rays.steps.id(), rays.steps.id(),
-       geometry.id(), geometry.id(), geometry.id(), rays.list.id()},
+       geometry.id(), geometry.id(), geometry.id(), rays.steps.id()},
       push, tiles * layout::tile_lanes, {0, 0, 0, 0, 0, round.resumable ? 1u : 0u});
 }
 
@@ -332,11 +339,13 @@ bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t cou
   // Most rays come to their end in the first dispatch, which need not keep what only the next ones read.
   Round round{query.restarted ? layout::resume_states : layout::resume_nothing,
               query.restarted || query.judged || query.steps};
-  // The CPU passes over rays by itself, rays through instances lie side by side already, and all of the
-  // camera's are there.
-  const bool lists = !on_cpu_ && roots == nullptr && !query.steps && count >= fewest_listed;
+  // The CPU passes over rays by itself, and rays through instances lie side by side already.
+  const Buffer* some = on_cpu_ ? nullptr : query.some;
+  const uint32_t all = some != nullptr ? query.some_count : count;
+  const bool lists = !on_cpu_ && roots == nullptr && !query.steps && all >= fewest_listed;
   std::optional<uint32_t> waiting;
-  if (query.common_origin && !query.restarted) waiting = count;
+  // The camera's are all there, and so are those of a list.
+  if (!query.restarted && (query.common_origin || (some != nullptr && !query.shadow))) waiting = all;
   do {
     if (interrupted && interrupted()) return false;
     clear_pending();
@@ -344,9 +353,9 @@ bool Tracing::trace(const Buffer& geometry, const RayBuffers& rays, uint32_t cou
       dispatch_tiles(geometry, rays, count, round);  // what does not go together is left to the next
     } else {
       std::optional<uint32_t> listed;
-      if (lists) listed = list_rays(rays, count, round, query.shadow, waiting);
-      if (listed != 0u)
-        dispatch(geometry, rays, listed.value_or(count), listed.has_value(), query, round, roots);
+      if (lists) listed = list_rays(rays, all, round, query, waiting);
+      const Buffer* list = listed ? &rays.list : some;
+      if (listed != 0u) dispatch(geometry, rays, listed.value_or(all), list, query, round, roots);
     }
     round = {round.resumable ? layout::resume_states : layout::resume_unanswered, true};
     waiting = take_pending();

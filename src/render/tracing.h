@@ -33,7 +33,7 @@ struct RayBuffers {
         states(backend, {prefix + "states", count, 16}),
         trails(backend, {prefix + "trails", count, 16}),
         steps(backend, {prefix + "steps", count, 4}),
-        list(backend, {prefix + "list", count, 4}),
+        list(backend, {prefix + "list", count + 1, 4}),
         block_counts(backend,
                      {prefix + "list_counts", (count + layout::list_block - 1) / layout::list_block, 4}),
         block_starts(backend,
@@ -58,6 +58,11 @@ struct TraceQuery {
   const Buffer* times = nullptr;  // of the rays, where something moves
   bool scattered = false;         // what has been scattered has a cone of its own, where there is detail
   const Buffer* cones = nullptr;  // and these are the cones
+  // Only the first `some_count` rays of this list (layout/ray_list.h), all of which are rays unless it is of
+  // shadow rays; null: all. Of the others nobody may ask what they hit. The CPU, which passes over rays by
+  // itself, looks at all.
+  const Buffer* some = nullptr;
+  uint32_t some_count = 0;
 };
 
 class Detail;
@@ -122,12 +127,14 @@ class Tracing {
     uint32_t resume = layout::resume_nothing;
     bool resumable = true;
   };
-  // How many of the first `count` rays a dispatch has to do with, if they are few enough to be put side by
-  // side, in rays.list; `waiting`: how many those are, where that is known. None: all are to be looked at.
-  std::optional<uint32_t> list_rays(const RayBuffers& rays, uint32_t count, const Round& round, bool shadow,
-                                    std::optional<uint32_t> waiting);
+  // How many of `count` rays, those of query.some or the first, a dispatch has to do with, if they are few
+  // enough to be put side by side, in rays.list; `waiting`: how many those are, where that is known. None:
+  // all are to be looked at.
+  std::optional<uint32_t> list_rays(const RayBuffers& rays, uint32_t count, const Round& round,
+                                    const TraceQuery& query, std::optional<uint32_t> waiting);
   void dispatch_tiles(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const Round& round);
-  void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, bool listed,
+  // `list`: which rays; null: the first.
+  void dispatch(const Buffer& geometry, const RayBuffers& rays, uint32_t count, const Buffer* list,
                 const TraceQuery& query, const Round& round, const Buffer* roots);
 
   Backend& backend_;
@@ -145,7 +152,7 @@ class Tracing {
   Buffer nodes_lo_, nodes_hi_, links_;  // 32 bits
   Buffer leaf_blocks_, leaf_groups_;
   Buffer boxes_, wide_nodes_;  // 16 bits, the second for the CPU
-  Buffer pending_, listed_;    // how many
+  Buffer pending_;
 };
 
 }  // namespace lodestone::render
