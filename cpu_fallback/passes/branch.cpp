@@ -22,7 +22,10 @@ HWY_ATTR inline Branch select(bvec1 condition, const Branch& yes, const Branch& 
 template <class Probe, uint32_t source_count, bool is_layered>
 class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
  public:
-  using SurfaceKernel<Probe, source_count, is_layered>::SurfaceKernel;
+  explicit BranchRays(const CpuDispatch& dispatch)
+      : SurfaceKernel<Probe, source_count, is_layered>(dispatch) {
+    if (push_.vertex != 0) this->stand_for(going_on_.words + 1);
+  }
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);
@@ -47,7 +50,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
 
   // The first of three quads, or with cones five.
   HWY_ATTR uvec1 place_of(uvec1 slot) const {
-    return (slot * push_.rays + this->own_index()) * (this->placing == placing_cones ? 5u : 3u);
+    return (slot * push_.stride + this->own_index()) * (this->placing == placing_cones ? 5u : 3u);
   }
 
   HWY_ATTR void scatter(const uvec4& hit, const vec3& direction) {
@@ -127,7 +130,7 @@ class BranchRays : public SurfaceKernel<Probe, source_count, is_layered> {
 
   Quads rays_ = this->quads(19), paths_ = this->quads(20), branches_ = this->quads(21);
   Words going_on_ = this->words(22);
-  PathPush push_ = this->template push<PathPush>();
+  BranchPush push_ = this->template push<BranchPush>();
 
   // Of the invocations that run.
   Branch branch_;

@@ -18,7 +18,10 @@ namespace lodestone::cpu_fallback::HWY_NAMESPACE {
 template <class Probe, uint32_t source_count, bool is_layered>
 class Shade : public EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 24> {
  public:
-  using EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 24>::EnvironmentKernel;
+  explicit Shade(const CpuDispatch& dispatch)
+      : EnvironmentKernel<SurfaceKernel<Probe, source_count, is_layered>, 24>(dispatch) {
+    if (push_.vertex != 0) this->stand_for(this->words(27).words + 1);
+  }
 
   HWY_ATTR void operator()() {
     const uvec4 hit = this->load_own(this->hits), along = this->load_own(rays_, 2, 1);

@@ -11,17 +11,21 @@
 QUADS(19, restrict, rays);
 QUADS(20, restrict, paths);
 QUADS(21, restrict, branches);  // three a ray that waits: its two, and a Branch; two more with its cone
-STRUCTS(22, restrict, uint, going_on);
+STRUCTS(22, restrict, uint, going_on);  // how many; behind the first vertex a list of the rays that this is about
 COUNTERS(23)
-PUSH(PathPush, push);
+PUSH(BranchPush, push);
 
 layout(constant_id = 5) const uint recursion = recursion_specular;
 
-uint branch_place(uint index, uint slot) { return (placing == placing_cones ? 5u : 3u) * (slot * push.rays + index); }
+uint branch_place(uint index, uint slot) { return (placing == placing_cones ? 5u : 3u) * (slot * push.stride + index); }
 
 void main() {
   uint index = invocation();
   if (index >= push.rays) return;
+  if (push.vertex != 0u) {
+    index = going_on[index + 1u];
+    count_read(1u);
+  }
   uvec4 hit;
   uvec4 along;
   LOAD4(hit, hits, index);

@@ -14,7 +14,8 @@ QUADS(23, restrict, radiance);
 QUADS(24, readonly, environment_quads);
 WORDS(25, readonly, environment_cells);
 QUADS(26, readonly, paths);  // a Branch each, where `recursion` says so
-COUNTERS(27)
+WORDS(27, readonly, ray_list);
+COUNTERS(28)
 PUSH(RayPush, push);
 layout(constant_id = 4) const uint environment_map = 0u;
 layout(constant_id = 5) const uint recursion = recursion_none;
@@ -25,6 +26,7 @@ layout(constant_id = 5) const uint recursion = recursion_none;
 void main() {
   uint index = invocation();
   if (index >= push.rays) return;
+  if (push.vertex != 0u) LOAD1(index, ray_list, index + 1u);
   uvec4 hit;
   uvec4 from;
   uvec4 along;

@@ -17,6 +17,16 @@ CONST uint recursion_glossy = 2u;
 // A ray that carries less is not followed.
 CONST float smallest_throughput = 9.765625e-4f;  // 2^-10
 
+// Where the rays of a batch go on. Behind the first vertex only those of a list (layout/ray_list.h) do.
+struct BranchPush {
+  uint first_ray;
+  uint rays;
+  uint sample_index;
+  uint vertex;       // 0: where the camera's ray ends
+  uint last_vertex;  // from which nothing goes on
+  uint stride;       // rays of the batch: those that wait lie one such row after the other
+};
+
 // Stored between rays, a quad a pixel.
 struct Branch {
   vec3 throughput;

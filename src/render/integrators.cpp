@@ -51,16 +51,20 @@ void Renderer::State::list_paths(uint32_t count, bool listed) {
   run_stage(layout::list_place);
 }
 
-// Of every light, at what the rays have hit; `recursion`: see layout/recursion.h.
-bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, const Interrupted& interrupted) {
+// Of every light, at what the rays have hit; `recursion`: see layout/recursion.h; `listed`: see
+// add_unblocked.
+bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, uint32_t listed,
+                                   const Interrupted& interrupted) {
+  const uint32_t batch_of_rays = push.rays;
+  if (listed != 0) push.rays = listed;
   for (uint32_t light = 0; light < light_count; ++light) {
     push.light = light;
     run(passes::shade,
         surface_buffers(
             primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance().id(),
-                      environment.quads.id(), environment.cells.id(), paths.id()}),
+                      environment.quads.id(), environment.cells.id(), paths.id(), going_on.id()}),
         push, push.rays, surface_constants(recursion, true));
-    if (!add_unblocked(push.rays, 0, push.vertex > 0, interrupted)) return false;
+    if (!add_unblocked(batch_of_rays, listed, push.vertex > 0, interrupted)) return false;
   }
   return true;
 }
@@ -77,25 +81,23 @@ bool Renderer::State::ambient_sample(const layout::RayPush& rays, const Interrup
 bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t recursion,
                                        const Interrupted& interrupted) {
   layout::RayPush light_push = rays;
+  uint32_t listed = 0;  // rays of the list `going_on`; at the first vertex there is none
   for (;; ++light_push.vertex) {
     if (light_push.vertex > 0) light_push.first = 0;
-    if (!direct_light(light_push, recursion, interrupted)) return false;
-    const layout::PathPush push{rays.first_ray,
-                                rays.rays,
-                                rays.sample_index,
-                                light_push.vertex,
-                                settings.max_bounces,
-                                light_count,
-                                0,
-                                0,
-                                0,
-                                0};
+    if (!direct_light(light_push, recursion, listed, interrupted)) return false;
+    const uint32_t count = listed != 0 ? listed : rays.rays;
+    const layout::BranchPush push{rays.first_ray,       count,    rays.sample_index, light_push.vertex,
+                                  settings.max_bounces, rays.rays};
     count_from_zero();
     run(passes::branch,
-        surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push,
-        push.rays, surface_constants(recursion, true));
-    if (counted() == 0) return true;
-    if (!trace_masked(primary, push.rays, {.scattered = true}, interrupted)) return false;
+        surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push, count,
+        surface_constants(recursion, true));
+    const uint32_t going = counted();
+    if (going == 0) return true;
+    list_paths(count, listed != 0);
+    listed = going;
+    const TraceQuery query{.scattered = true, .some = &going_on, .some_count = listed};
+    if (!trace_masked(primary, rays.rays, query, interrupted)) return false;
   }
 }
 
@@ -143,7 +145,7 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
     const uint32_t going = counted();
     if (!add_unblocked(rays.rays, listed, vertex > 0, interrupted)) return false;
     if (going == 0) return true;
-    list_paths(count, vertex > 0);
+    list_paths(count, listed != 0);
     listed = going;
     const TraceQuery query{.scattered = true, .some = &going_on, .some_count = listed};
     if (!trace_masked(primary, rays.rays, query, interrupted)) return false;
@@ -154,7 +156,7 @@ bool Renderer::State::integrate(const layout::RayPush& rays, const Interrupted& 
   switch (settings.integrator) {
     case Integrator::eye:
     case Integrator::dof:
-      return direct_light(rays, layout::recursion_none, interrupted);
+      return direct_light(rays, layout::recursion_none, 0, interrupted);
     case Integrator::ao:
       return ambient_sample(rays, interrupted);
     case Integrator::specular:

@@ -9,6 +9,7 @@
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/objects.h"
 #include "lodestone/layout/portion.h"
+#include "lodestone/layout/recursion.h"
 #include "lodestone/layout/relax.h"
 #include "lodestone/layout/trace.h"
 
@@ -250,7 +251,8 @@ constexpr Binding shade_bindings[] = {SURFACE_BINDINGS,
                                       {"shadow_rays", quad, write},
                                       {"radiance", quad, read_write},
                                       ENVIRONMENT_BINDINGS,
-                                      {"paths", quad, read}};
+                                      {"paths", quad, read},
+                                      {"ray_list", word, read}};
 
 constexpr Binding branch_bindings[] = {SURFACE_BINDINGS_OF(read_write),
                                        {"rays", quad, read_write},
@@ -384,7 +386,7 @@ const PassDecl occlude_boxes{"occlude", "geometry_image/trace_boxes", trace_boxe
 const PassDecl mask{"mask", "geometry_image/mask", mask_bindings, sizeof(CountPush)};
 const PassDecl shade{"shade", "geometry_image/shade", shade_bindings, sizeof(RayPush)};
 const PassDecl ambient{"shade", "geometry_image/ambient", ambient_bindings, sizeof(AmbientPush)};
-const PassDecl branch{"scatter", "geometry_image/branch", branch_bindings, sizeof(PathPush)};
+const PassDecl branch{"scatter", "geometry_image/branch", branch_bindings, sizeof(BranchPush)};
 const PassDecl draw_emitters{"emitters", "geometry_image/draw_emitters", draw_emitters_bindings,
                              sizeof(EmitterPush)};
 const PassDecl path{"shade", "geometry_image/path", path_bindings, sizeof(PathPush)};

@@ -92,9 +92,8 @@ Renderer::State::State(Backend& device, const scene::Scene& scene_in, const scen
   const bool coned = settings.pixels_of_error > 0 && !eye;
   if (coned) cones = Buffer(device, {"cones", 2 * uint64_t(batch_rays), 16});
   branches = Buffer(device, {"branches", (coned ? 5 : 3) * uint64_t(batch_rays) * waiting, 16});
-  const bool lists = settings.integrator == Integrator::path;
-  going_on = Buffer(device, {"going_on", 1 + (lists ? uint64_t(batch_rays) : 0), 4});
-  went_on = Buffer(device, {"went_on", 1 + (lists ? uint64_t(batch_rays) : 0), 4});
+  going_on = Buffer(device, {"going_on", 1 + (eye ? 0 : uint64_t(batch_rays)), 4});
+  went_on = Buffer(device, {"went_on", 1 + (eye ? 0 : uint64_t(batch_rays)), 4});
   beauty = Buffer(device, {"beauty", pixels, 16});
   display = Buffer(device, {"display", pixels, 16});
   aovs = Buffer(device, {"aovs", settings.aovs.empty() ? 0 : 4 * pixels, 16});

@@ -54,8 +54,9 @@ struct Renderer::State {
   uint32_t batch = 0;
   layout::FrameRecord frame_record{};
   Buffer contributions, paths, branches, beauty, display, aovs;
-  Buffer going_on;  // how many rays go on; with `path` a list (layout/ray_list.h) ...
-  Buffer went_on;   // ... and that of the vertex before
+  // How many rays go on, and behind the first vertex a list of them (layout/ray_list.h); that of the vertex
+  // before.
+  Buffer going_on, went_on;
   uint32_t light_count = 0;
   LightChoice light_choice;  // of `path`
   double scene_radius = 0;   // of a sphere round it, at rest
@@ -160,7 +161,8 @@ struct Renderer::State {
 
   // integrators.cpp: one sample of a batch whose rays have found what they hit. False: interrupted.
   bool integrate(const layout::RayPush& rays, const Interrupted& interrupted);
-  bool direct_light(layout::RayPush push, uint32_t recursion, const Interrupted& interrupted);
+  bool direct_light(layout::RayPush push, uint32_t recursion, uint32_t listed,
+                    const Interrupted& interrupted);
   bool ambient_sample(const layout::RayPush& rays, const Interrupted& interrupted);
   bool recursive_sample(const layout::RayPush& rays, uint32_t recursion, const Interrupted& interrupted);
   void draw_emitters(const layout::PathPush& push);
