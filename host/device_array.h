@@ -33,7 +33,7 @@ struct ArrayLimits {
   uint64_t segment_bytes() const { return uint64_t(1) << segment_shift; }
 
   bool texel_buffers;  // word and quad arrays are texel buffers where those show them whole
-  bool pairs;          // but quads that are written are pairs of 64-bit numbers in storage buffers
+  bool pairs;          // but quads that are only written are pairs of 64-bit numbers in storage buffers
   bool has_addresses;  // the device can do more than that
   uint64_t texel_elements;
   uint64_t buffer_bytes;   // of one VkBuffer

@@ -11,8 +11,8 @@
 
 namespace lodestone::host {
 
-// Whether word and quad buffers become texel buffers; without_pairs: those that are written as well, whatever
-// the device.
+// Whether word and quad buffers become texel buffers; without_pairs: those that are only written as well,
+// whatever the device.
 enum class TexelBuffers { automatic, always, without_pairs, never };
 
 // A line of `lodestone devices`.

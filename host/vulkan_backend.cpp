@@ -280,6 +280,11 @@ KernelVariant VulkanBackend::choose_variant(const render::Dispatch& dispatch) co
     addressed |= 1u << i;
     if (!is_texel_buffer(dispatch.pass->bindings[i], BufferForm::pairs)) fits_pairs = false;
   }
+  const auto stored = std::count_if(
+      dispatch.pass->bindings.begin(), dispatch.pass->bindings.end(),
+      [](const render::Binding& binding) { return !is_texel_buffer(binding, BufferForm::pairs); });
+  const uint32_t with_counters = static_cast<uint32_t>(stored) + 1;
+  if (with_counters > device_.limits().maxPerStageDescriptorStorageBuffers) fits_pairs = false;
   if (fits_texel_buffers) return {fits_pairs ? BufferForm::pairs : BufferForm::texel, 0};
   if (addressed == 0) return {BufferForm::storage, 0};
   if (limits_.has_addresses) return {BufferForm::split, addressed};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What every kernel starts with: its index, its buffers and its counters. Buffers of words (4 bytes) and quads (16
-// bytes) are storage buffers in one variant of each kernel and texel buffers in the others (on lavapipe nearly twice as
-// fast to read, and with room for 2 GiB). In the variant of pairs quads that are written are storage buffers all the
-// same, of 64-bit numbers: lavapipe stores lane by lane and number by number. The last variant is for arrays that none
-// of these can show whole; it reaches those by addresses. Kernels name their buffers only through these macros.
+// bytes) are storage buffers in one variant of each kernel and texel buffers in two others (on lavapipe nearly twice as
+// fast to read, and with room for 2 GiB). In the second of these quads that are only written are storage buffers all
+// the same, of 64-bit numbers: lavapipe stores lane by lane and number by number. The last variant is for arrays that
+// none of these can show whole; it reaches those by addresses. Kernels name their buffers only through these macros.
 #extension GL_EXT_scalar_block_layout : require
 #if LODESTONE_PAIR_STORES
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require

@@ -207,7 +207,7 @@ HWY_ATTR HWY_FLATTEN inline uint64_t load_beam(Block& block, const TraceTree& tr
   beam.axis = layout::make_shear(beam.lead).axis;
   beam.any_hit = block.any_hit();
   if (!common && block.instanced()) waiting &= block.same_root(first, lowest);
-  const layout::BoxGrid grid{glm::vec3(tree.grid().base), 0, glm::vec3(tree.grid().step), 0};
+  const layout::BoxGrid& grid = tree.grid();
   const layout::TileAxes axes = layout::make_tile_axes(slabs, grid);
   const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least_size = hn::Set(d, 0x1p-40f);
   const auto nothing = hn::Set(d, -1.0f);
@@ -266,7 +266,7 @@ HWY_ATTR HWY_FLATTEN inline uint64_t load_beam(Block& block, const TraceTree& tr
       hn::Store(start.y, d, bundle.turned_origin[1] + lane);
       hn::Store(start.z, d, bundle.turned_origin[2] + lane);
       tmin.add(rays.tmin, goes);
-      hn::Store(rays.tmin, d, bundle.tmin + lane);
+      hn::Store(hn::Max(rays.tmin, zero), d, bundle.tmin + lane);
     }
     bundle.reach = {{{sizes[0].least(), sizes[1].least(), sizes[2].least()},
                      {sizes[0].most(), sizes[1].most(), sizes[2].most()}},

@@ -45,7 +45,7 @@ class EnterInstances : public Kernel<Probe> {
       this->store(places_, ray_index_, uvec4(walk.index, walk.levels, walk.depth | paused, place_.w));
       this->store(trails_, ray_index_, walk.trail);
       state_.z = layout::trace_unfinished;
-      this->add(block_counts_, index / layout::compact_block, 1);
+      this->add(block_counts_, index / push_.block, 1);
     } else {
       state_.z = layout::trace_finished;
       if (any_hit_ && best_.primitive != layout::no_index) {

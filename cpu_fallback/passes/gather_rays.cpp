@@ -13,8 +13,8 @@ class GatherRays : public Kernel<Probe> {
   using Kernel<Probe>::Kernel;
 
   void operator()(uint32_t block) {
-    const uint64_t begin = uint64_t(block) * layout::compact_block;
-    const uint64_t end = std::min<uint64_t>(begin + layout::compact_block, push_.count);
+    const uint64_t begin = uint64_t(block) * push_.block;
+    const uint64_t end = std::min<uint64_t>(begin + push_.block, push_.count);
     if (begin >= end) return;
     uint32_t place = this->load(block_starts_, block);
     for (uint64_t i = begin; i < end; ++i) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "lodestone/cpu_fallback/passes/passes.h"
-#include "lodestone/layout/frame.h"
 #include "lodestone/layout/ray_list.h"
 
 namespace lodestone::cpu_fallback {
@@ -16,8 +15,8 @@ class ListRays : public Kernel<Probe> {
   using Kernel<Probe>::Kernel;
 
   void operator()(uint32_t block) {
-    const uint64_t begin = uint64_t(block) * layout::list_block;
-    const uint64_t end = std::min<uint64_t>(begin + layout::list_block, push_.count);
+    const uint64_t begin = uint64_t(block) * push_.block;
+    const uint64_t end = std::min<uint64_t>(begin + push_.block, push_.count);
     if (begin >= end) return;
     uint32_t place = lists_ ? this->load(block_starts_, block) : 0;
     uint32_t wanted = 0;
@@ -56,7 +55,7 @@ class ListRays : public Kernel<Probe> {
   Words block_counts_ = this->words(3), block_starts_ = this->words(4), some_ = this->words(5),
         list_ = this->words(6);
   Quads shadow_rays_ = this->quads(7);
-  layout::CountPush push_ = this->template push<layout::CountPush>();
+  layout::ListPush push_ = this->template push<layout::ListPush>();
   bool lists_ = this->constant(0) == layout::list_place;
   uint32_t resume_ = this->constant(1);
   bool resumable_ = this->constant(2) != 0, among_ = this->constant(3) != 0, ending_ = this->constant(4) != 0;

@@ -47,7 +47,7 @@ alignas(16) inline constexpr int32_t shear_turns[3][4] = {{1, 2, 0, 3}, {2, 0, 1
 // `from`: a ray's two quads.
 HWY_ATTR inline void make_ready(const float* from, const TraceTree& tree, SingleRay& ready) {
   const float extent = ready.extent = tree.extent();
-  const WideGrid& grid = tree.grid();
+  const layout::BoxGrid& grid = tree.grid();
   // In lane w z once more, not tmin and tmax: products with an infinite ray's reciprocal would be denormal,
   // and some processors take a hundred cycles for each.
   const Lanes4 origin = permuted<0, 1, 2, 2>(load_lanes(from)),

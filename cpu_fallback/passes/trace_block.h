@@ -24,7 +24,7 @@ class TraceTree {
       : wide_(wide + object.first_wide),
         leaf_map_{leaf_map.words + 2 * uint64_t(object.first_slot)},
         slots_(object.slots),
-        grid_{glm::vec4(object.lo, 0), glm::vec4(object.step, 0)},
+        grid_(layout::object_grid(object)),
         extent_(object.extent) {
     const render::WideLevels levels(object.depth, slots_);
     first_leaf_record_ = render::WideLevels::first(levels.count() - 1);
@@ -32,7 +32,7 @@ class TraceTree {
   }
 
   float extent() const { return extent_; }
-  const WideGrid& grid() const { return grid_; }
+  const layout::BoxGrid& grid() const { return grid_; }
 
   const WideNode& wide_node(uint32_t record) const { return wide_[record]; }
   uint32_t first_leaf_record() const { return first_leaf_record_; }
@@ -51,7 +51,7 @@ class TraceTree {
   const WideNode* wide_;
   Words leaf_map_;
   uint32_t slots_;
-  WideGrid grid_;
+  layout::BoxGrid grid_;
   float extent_;
   uint32_t first_leaf_record_, end_record_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the traversals of single rays share: a ray, its hit, and its state from dispatch to dispatch
+// What the traversals share: a ray, its hit, and its state from dispatch to dispatch
 // (shaders/geometry_image/trace.glsl).
 #pragma once
 

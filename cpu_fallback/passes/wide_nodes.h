@@ -26,11 +26,6 @@ static_assert(sizeof(WideNode) == render::wide_node_bytes);
 // How many levels of records are made at once, from the leaves up: one of the highest of them a task.
 inline constexpr uint32_t wide_levels_at_once = 3, wide_records_a_task = wide_fan * wide_fan;
 
-// A plane q stands for base + q * step.
-struct WideGrid {
-  glm::vec4 base, step;  // w: 0
-};
-
 // The pass, an invocation a record above leaves: all records of one hierarchy, the first of which is
 // BoxesPush::first_node, from the geometry image; `count`: leaf slots. Buffer 2 says which quads are below
 // each of those records (render::sixteen_slots).

@@ -22,7 +22,7 @@ WORDS(11, readonly, owners);
 QUADS(12, readonly, local_hits);
 WORDS(13, readonly, local_steps);
 WORDS(14, writeonly, found);  // of each ray the instance, enter_paused or no_index
-STRUCTS(15, restrict, uint, block_counts);  // of rays that go on, by blocks of compact_block rays of this round
+STRUCTS(15, restrict, uint, block_counts);  // of rays that go on, by blocks of rays of this round
 COUNTERS(16)
 PUSH(EnterPush, push);
 
@@ -170,7 +170,7 @@ void main() {
     STORE4(places, ray_index, uvec4(walk.index, walk.levels, walk.depth | (paused ? place_paused : 0u), place.w));
     STORE4(trails, ray_index, walk.trail);
     state.z = trace_unfinished;
-    atomicAdd(block_counts[index / compact_block], 1u);
+    atomicAdd(block_counts[index / push.block], 1u);
   } else {
     state.z = trace_finished;
     if (any_hit != 0u && best.primitive != no_index) {

@@ -14,9 +14,9 @@ PUSH(GatherPush, push);
 
 void main() {
   uint block = invocation();
-  uint begin = block * compact_block;
-  if (begin >= push.count) return;
-  uint end = begin + compact_block < push.count ? begin + compact_block : push.count;
+  if (block > (push.count - 1u) / push.block) return;
+  uint begin = block * push.block;
+  uint end = push.count - begin < push.block ? push.count : begin + push.block;
   uint place;
   LOAD1(place, block_starts, block);
   for (uint i = begin; i < end; ++i) {

@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "kernel.glsl"
-#include "layout/frame.h"
 #include "layout/ray_list.h"
 
 QUADS(0, readonly, rays);
@@ -15,7 +14,7 @@ WORDS(5, readonly, some);
 WORDS(6, writeonly, ray_list);
 QUADS(7, writeonly, shadow_rays);
 COUNTERS(8)
-PUSH(CountPush, push);
+PUSH(ListPush, push);
 
 layout(constant_id = 2) const uint stage = list_count;
 layout(constant_id = 3) const uint resume = resume_nothing;
@@ -25,9 +24,9 @@ layout(constant_id = 6) const uint ending = 0u;     // 1: the others have ended,
 
 void main() {
   uint block = invocation();
-  uint begin = block * list_block;
-  if (begin >= push.count) return;
-  uint end = begin + list_block < push.count ? begin + list_block : push.count;
+  if (block > (push.count - 1u) / push.block) return;
+  uint begin = block * push.block;
+  uint end = push.count - begin < push.block ? push.count : begin + push.block;
   uint place = 0u;
   if (stage == list_place) LOAD1(place, block_starts, block);
   uint wanted = 0u;

@@ -125,7 +125,7 @@ struct EnterPush {
   uint budget;     // steps of a ray in this dispatch
   float extent;    // the largest absolute coordinate of all bounds
   float rounding;  // the largest of all instances
-  uint pad0;
+  uint block;      // of rays that are counted together (layout/ray_list.h)
   BoxGrid grid;
 };
 CONST uint enter_paused = 0xfffffffeu;  // instead of an instance: the budget was spent before one was found
@@ -134,8 +134,8 @@ CONST uint place_paused = 256u;         // the same, beside the depth of the ray
 struct GatherPush {
   uint count;
   uint round;
+  uint block;
 };
-CONST uint compact_block = 64u;  // rays
 
 LODESTONE_LAYOUT_END
 #endif

@@ -67,14 +67,20 @@ void tell_pool(uint32_t threads) {
 }
 
 void share(uint64_t blocks, uint32_t threads, const Block& run_block) {
+  // A loop inside a loop does not end because another block of the outer one has failed.
+  tbb::task_group_context context(tbb::task_group_context::isolated);
   const auto run = [&] {
-    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, blocks, 1),
-                      [&](const tbb::blocked_range<uint64_t>& range) {
-                        for (uint64_t block = range.begin(); block != range.end(); ++block) run_block(block);
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<uint64_t>(0, blocks, 1),
+        [&](const tbb::blocked_range<uint64_t>& range) {
+          for (uint64_t block = range.begin(); block != range.end(); ++block) run_block(block);
+        },
+        context);
   };
-  // The thread's own arena has a place a core; to make another takes as long as a short loop.
-  if (threads <= static_cast<uint32_t>(tbb::this_task_arena::max_concurrency())) return run();
+  // The thread's own arena has a place a core; to make another takes as long as a short loop. While the
+  // thread waits there for an inner loop it takes up no block of the outer one.
+  if (threads <= static_cast<uint32_t>(tbb::this_task_arena::max_concurrency()))
+    return tbb::this_task_arena::isolate(run);
   tbb::task_arena(static_cast<int>(threads)).execute(run);
 }
 

@@ -31,7 +31,7 @@ class HierarchyLevels {
 
 inline constexpr uint32_t wide_fan = 16, wide_node_bytes = 192;
 
-// The same tree two levels at a time, as the CPU's single rays see it (cpu_fallback/passes/wide_nodes.h):
+// The same tree two levels at a time, as the CPU's `wide` sees it (cpu_fallback/passes/wide_nodes.h):
 // child c of record r is record 16 r + 1 + c. The children of the last level's records are the leaves; where
 // the depth is odd the root record has the 4 nodes of level 1.
 class WideLevels {

@@ -165,7 +165,7 @@ void Instances::build_tree() {
 void Instances::reserve(uint32_t rays) {
   if (rays <= capacity_) return;
   capacity_ = rays;
-  const uint64_t blocks = (uint64_t(rays) + layout::compact_block - 1) / layout::compact_block;
+  const uint64_t blocks = most_list_blocks(rays);
   local_ = RayBuffers(backend_, "local_", rays);
   owners_ = Buffer(backend_, {"owners", rays, 4});
   next_owners_ = Buffer(backend_, {"next_owners", rays, 4});
@@ -178,21 +178,22 @@ void Instances::reserve(uint32_t rays) {
 // How many of `count` rays have entered an instance.
 uint32_t Instances::enter(const RayBuffers& rays, uint32_t count, uint32_t round, const TraceQuery& query) {
   const EnterPasses passes = enter_passes(query.shadow);
-  const uint32_t blocks = (count + layout::compact_block - 1) / layout::compact_block;
+  const layout::ListPush list{count, layout::list_block(count)};
+  const uint32_t blocks = list_blocks(list);
   const std::array<uint32_t, pass_constants> constants{query.any_hit ? 1u : 0u, query.steps ? 1u : 0u};
   run(passes.enter,
       {rays.rays.id(), rays.hits.id(), rays.instances.id(), rays.states.id(), rays.places.id(),
        rays.trails.id(), rays.steps.id(), boxes_.id(), keys_.id(), lo_.id(), hi_.id(), owners_.id(),
        local_.hits.id(), local_.steps.id(), found_.id(), block_counts_.id()},
       layout::EnterPush{count, round, query.restarted ? 1u : 0u, levels_.depth(), (loop_budget_ + 1) / 2,
-                        extent_, rounding_, 0, grid_},
+                        extent_, rounding_, list.block, grid_},
       count, constants);
   run(passes.scan, {block_counts_.id(), block_starts_.id(), entered_.id()}, layout::CountPush{blocks}, 1);
   uint32_t entered = 0;
   backend_.download(entered_.id(), std::as_writable_bytes(std::span(&entered, 1)), 0);
   if (entered == 0) return 0;
   run(passes.gather, {found_.id(), block_starts_.id(), owners_.id(), next_owners_.id()},
-      layout::GatherPush{count, round}, blocks);
+      layout::GatherPush{count, round, list.block}, blocks);
   std::swap(owners_, next_owners_);
   run(passes.local,
       {rays.rays.id(), rays.hits.id(), rays.states.id(), rays.places.id(), found_.id(), records_.id(),

@@ -34,28 +34,29 @@ bool Renderer::State::add_unblocked(uint32_t count, uint32_t listed, bool scatte
   return true;
 }
 
-// Of `count` paths, all or those of the list, the ones that go on become the list; the others cast no shadow
-// rays any more.
-void Renderer::State::list_paths(uint32_t count, bool listed) {
+// Of `count` rays, all or those of the list, the ones that go on become the list; the others cast no shadow
+// rays any more. How many that are.
+uint32_t Renderer::State::list_paths(uint32_t count, bool listed) {
   std::swap(going_on, went_on);
-  const uint32_t blocks = (count + layout::list_block - 1) / layout::list_block;
+  const layout::ListPush push{count, layout::list_block(count)};
   const auto run_stage = [&](uint32_t stage) {
     run(passes::list_paths,
         {primary.rays.id(), primary.hits.id(), primary.states.id(), primary.block_counts.id(),
          primary.block_starts.id(), went_on.id(), going_on.id(), shadow.rays.id()},
-        layout::CountPush{count}, blocks, {stage, layout::resume_nothing, 0, listed ? 1u : 0u, 1});
+        push, list_blocks(push), {stage, layout::resume_nothing, 0, listed ? 1u : 0u, 1});
   };
   run_stage(layout::list_count);
   run(passes::scan_paths, {primary.block_counts.id(), primary.block_starts.id(), going_on.id()},
-      layout::CountPush{blocks}, 1);
+      layout::CountPush{list_blocks(push)}, 1);
   run_stage(layout::list_place);
+  return counted();
 }
 
 // Of every light, at what the rays have hit; `recursion`: see layout/recursion.h; `listed`: see
 // add_unblocked.
 bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, uint32_t listed,
                                    const Interrupted& interrupted) {
-  const uint32_t batch_of_rays = push.rays;
+  const uint32_t all = push.rays;
   if (listed != 0) push.rays = listed;
   for (uint32_t light = 0; light < light_count; ++light) {
     push.light = light;
@@ -64,7 +65,7 @@ bool Renderer::State::direct_light(layout::RayPush push, uint32_t recursion, uin
             primary, {primary.rays.id(), lights.id(), contributions.id(), shadow.rays.id(), radiance().id(),
                       environment.quads.id(), environment.cells.id(), paths.id(), going_on.id()}),
         push, push.rays, surface_constants(recursion, true));
-    if (!add_unblocked(batch_of_rays, listed, push.vertex > 0, interrupted)) return false;
+    if (!add_unblocked(all, listed, push.vertex > 0, interrupted)) return false;
   }
   return true;
 }
@@ -92,10 +93,9 @@ bool Renderer::State::recursive_sample(const layout::RayPush& rays, uint32_t rec
     run(passes::branch,
         surface_buffers(primary, {primary.rays.id(), paths.id(), branches.id(), going_on.id()}), push, count,
         surface_constants(recursion, true));
-    const uint32_t going = counted();
-    if (going == 0) return true;
-    list_paths(count, listed != 0);
-    listed = going;
+    if (counted() == 0) return true;
+    listed = list_paths(count, listed != 0);
+    if (listed == 0) return true;
     const TraceQuery query{.scattered = true, .some = &going_on, .some_count = listed};
     if (!trace_masked(primary, rays.rays, query, interrupted)) return false;
   }
@@ -142,11 +142,11 @@ bool Renderer::State::path_sample(const layout::RayPush& rays, const Interrupted
                                   radiance().id(), paths.id(), going_on.id(), environment.quads.id(),
                                   environment.cells.id(), emitters ? emitters->drawn().id() : paths.id()}),
         push, push.rays, constants);
-    const uint32_t going = counted();
+    const bool last = counted() == 0;
     if (!add_unblocked(rays.rays, listed, vertex > 0, interrupted)) return false;
-    if (going == 0) return true;
-    list_paths(count, listed != 0);
-    listed = going;
+    if (last) return true;
+    listed = list_paths(count, listed != 0);
+    if (listed == 0) return true;
     const TraceQuery query{.scattered = true, .some = &going_on, .some_count = listed};
     if (!trace_masked(primary, rays.rays, query, interrupted)) return false;
   }

@@ -9,6 +9,7 @@
 #include "lodestone/layout/links.h"
 #include "lodestone/layout/objects.h"
 #include "lodestone/layout/portion.h"
+#include "lodestone/layout/ray_list.h"
 #include "lodestone/layout/recursion.h"
 #include "lodestone/layout/relax.h"
 #include "lodestone/layout/trace.h"
@@ -346,10 +347,10 @@ const PassDecl upper_boxes{"upper", "geometry_image/boxes", boxes_bindings, size
 const PassDecl enter_instances{"trace", "geometry_image/enter_instances", enter_instances_bindings,
                                sizeof(EnterPush)};
 const PassDecl scan_blocks{"trace", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
-const PassDecl list_rays{"trace", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
-const PassDecl list_paths{"shade", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
+const PassDecl list_rays{"trace", "geometry_image/list_rays", list_rays_bindings, sizeof(ListPush)};
+const PassDecl list_paths{"shade", "geometry_image/list_rays", list_rays_bindings, sizeof(ListPush)};
 const PassDecl scan_paths{"shade", "geometry_image/scan_blocks", scan_blocks_bindings, sizeof(CountPush)};
-const PassDecl occlude_list{"occlude", "geometry_image/list_rays", list_rays_bindings, sizeof(CountPush)};
+const PassDecl occlude_list{"occlude", "geometry_image/list_rays", list_rays_bindings, sizeof(ListPush)};
 const PassDecl gather_rays{"trace", "geometry_image/gather_rays", gather_rays_bindings, sizeof(GatherPush)};
 const PassDecl local_rays{"trace", "geometry_image/local_rays", local_rays_bindings, sizeof(CountPush)};
 const PassDecl occlude_enter{"occlude", "geometry_image/enter_instances", enter_instances_bindings,

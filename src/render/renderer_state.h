@@ -54,8 +54,8 @@ struct Renderer::State {
   uint32_t batch = 0;
   layout::FrameRecord frame_record{};
   Buffer contributions, paths, branches, beauty, display, aovs;
-  // How many rays go on, and behind the first vertex a list of them (layout/ray_list.h); that of the vertex
-  // before.
+  // How many rays go on from where they are; and behind that word, from the second vertex on, the numbers of
+  // those that came there (layout/ray_list.h). The same of the vertex before.
   Buffer going_on, went_on;
   uint32_t light_count = 0;
   LightChoice light_choice;  // of `path`
@@ -169,7 +169,7 @@ struct Renderer::State {
   bool path_sample(const layout::RayPush& rays, const Interrupted& interrupted);
   // `listed`: only of so many rays, those of `going_on`; 0: of the first `count`.
   bool add_unblocked(uint32_t count, uint32_t listed, bool scattered, const Interrupted& interrupted);
-  void list_paths(uint32_t count, bool listed);
+  uint32_t list_paths(uint32_t count, bool listed);
   void count_from_zero();
   uint32_t counted();
 };

@@ -246,13 +246,13 @@ uint32_t Tracing::take_pending() {
 std::optional<uint32_t> Tracing::list_rays(const RayBuffers& rays, uint32_t count, const Round& round,
                                            const TraceQuery& query, std::optional<uint32_t> waiting) {
   if (waiting && !is_sparse(*waiting, count)) return {};
-  const uint32_t blocks = (count + layout::list_block - 1) / layout::list_block;
+  const layout::ListPush push{count, layout::list_block(count)};
+  const uint32_t blocks = list_blocks(push);
   const auto run_stage = [&](uint32_t stage) {
     run(query.shadow ? passes::occlude_list : passes::list_rays,
         {rays.rays.id(), rays.hits.id(), rays.states.id(), rays.block_counts.id(), rays.block_starts.id(),
          query.some != nullptr ? query.some->id() : rays.steps.id(), rays.list.id(), rays.states.id()},
-        layout::CountPush{count}, blocks,
-        {stage, round.resume, round.resumable ? 1u : 0u, query.some != nullptr ? 1u : 0u});
+        push, blocks, {stage, round.resume, round.resumable ? 1u : 0u, query.some != nullptr ? 1u : 0u});
   };
   run_stage(layout::list_count);
   run(query.shadow ? passes::occlude_scan : passes::scan_blocks,

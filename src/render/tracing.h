@@ -2,6 +2,7 @@
 // The hierarchy over the geometry image, built every frame, and rays traced through it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -21,6 +22,15 @@ namespace lodestone::render {
 
 using Interrupted = std::function<bool()>;
 
+// The blocks of a list of so many rays (layout/ray_list.h), and of any list of no more.
+inline uint32_t list_blocks(const layout::ListPush& push) {
+  return push.count == 0 ? 0 : (push.count - 1) / push.block + 1;
+}
+inline uint64_t most_list_blocks(uint64_t count) {
+  return std::min<uint64_t>((count + layout::fewest_in_block - 1) / layout::fewest_in_block,
+                            layout::most_blocks);
+}
+
 // The rays of one kind (primary, or to a light), two quads each as layout/ray.h has them, and what they
 // found.
 struct RayBuffers {
@@ -34,10 +44,8 @@ struct RayBuffers {
         trails(backend, {prefix + "trails", count, 16}),
         steps(backend, {prefix + "steps", count, 4}),
         list(backend, {prefix + "list", count + 1, 4}),
-        block_counts(backend,
-                     {prefix + "list_counts", (count + layout::list_block - 1) / layout::list_block, 4}),
-        block_starts(backend,
-                     {prefix + "list_starts", (count + layout::list_block - 1) / layout::list_block, 4}),
+        block_counts(backend, {prefix + "list_counts", most_list_blocks(count), 4}),
+        block_starts(backend, {prefix + "list_starts", most_list_blocks(count), 4}),
         instances(backend, {prefix + "instances", placed ? count : 0, 4}),
         places(backend, {prefix + "places", placed ? count : 0, 16}),
         times(backend, {prefix + "times", timed ? count : 0, 4}) {}
@@ -59,8 +67,8 @@ struct TraceQuery {
   bool scattered = false;         // what has been scattered has a cone of its own, where there is detail
   const Buffer* cones = nullptr;  // and these are the cones
   // Only the first `some_count` rays of this list (layout/ray_list.h), all of which are rays unless it is of
-  // shadow rays; null: all. Of the others nobody may ask what they hit. The CPU, which passes over rays by
-  // itself, looks at all.
+  // shadow rays; null: all. The others keep what they had before: no hit, or one that `mask` has judged. The
+  // CPU, which passes over rays by itself, looks at all.
   const Buffer* some = nullptr;
   uint32_t some_count = 0;
 };

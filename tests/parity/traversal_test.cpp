@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "lodestone/layout/tile.h"
 #include "lodestone/test_support/devices.h"
@@ -46,9 +47,12 @@ uint64_t count_hits(const std::vector<glm::uvec4>& hits) {
 class Traversals : public testing::Test {
  protected:
   void expect_all_equal(const ReadyScene& ready, const Rays& rays) {
-    using render::Traversal;
-    const auto expected = hits_of(ready, Traversal::threaded, rays);
+    const auto expected = hits_of(ready, render::Traversal::threaded, rays);
     EXPECT_GT(count_hits(expected), rays.size() / 20);
+    expect_equal_to(expected, ready, rays);
+  }
+  void expect_equal_to(const std::vector<glm::uvec4>& expected, const ReadyScene& ready, const Rays& rays) {
+    using render::Traversal;
     EXPECT_EQ(hits_of(ready, Traversal::octant, rays), expected);
     EXPECT_EQ(hits_of(ready, Traversal::wide, rays), expected);
     EXPECT_EQ(hits_of(ready, Traversal::wide, rays, 1), expected);
@@ -89,9 +93,51 @@ TEST_F(Traversals, AgreeThroughInstances) {
                    random_rays({-3, -3, -3}, {3, 3, 3}, 20000, 5));
 }
 
-TEST_F(Traversals, AgreeOnPrimaryRaysWhichTravelAsPackets) {
+TEST_F(Traversals, AgreeOnPrimaryRaysWhichTravelTogether) {
   expect_all_equal(ReadyScene(grid_sphere(64)), primary_rays({1.5f, 1, 3}, {0, 0, 0}, 0.4f, 128));
   expect_all_equal(ReadyScene(grid_sphere(37)), primary_rays({0, 0.3f, 3}, {0, 0, 0}, 0.4f, 64));
+}
+
+// As shadow rays to one light do, or those of a parallel projection: some of them, of three kinds, mixed with
+// what is no ray or has nothing to look for.
+TEST_F(Traversals, AgreeOnRaysThatStartNearEachOther) {
+  const ReadyScene ready(grid_sphere(64));
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> unit(0, 1);
+  Rays rays;
+  for (uint32_t i = 0; i < 64 * 64; ++i) {
+    const float x = static_cast<float>(i % 64) / 32 - 1, y = static_cast<float>(i / 64) / 32 - 1;
+    const uint32_t kind = i / 64 % 4 == 3 ? i % 3 : 0;
+    const glm::vec3 from[] = {{x, y, 3 + unit(random) * 0.01f}, {3, x, y}, {x, y, -3}};
+    const glm::vec3 target = glm::vec3(0.1f, 0.2f, 0) * unit(random);
+    add_ray(rays, from[kind], target - from[kind]);
+    glm::vec4 &start = rays[rays.size() - 2], &end = rays.back();
+    start.w = i % 5 == 0 ? 2.5f * unit(random) : 0;
+    if (i % 7 == 0) end.w = 3 * unit(random);
+    if (i % 11 == 0) end.w = -1;
+    if (i % 97 == 0) start.x = std::numeric_limits<float>::quiet_NaN();
+    if (i % 101 == 0) end.y = std::numeric_limits<float>::infinity();
+  }
+  expect_all_equal(ready, rays);
+}
+
+// Devices put those side by side that have something to do, and the others must say that they have hit
+// nothing, whatever lay in their places before.
+TEST_F(Traversals, AgreeWhereFewRaysHaveAnythingToDo) {
+  for (const uint32_t share : {8u, 200u}) {
+    Rays rays = random_rays({-4, -1, -4}, {4, 4, 4}, 30000, 9);
+    for (size_t i = 0; i < rays.size() / 2; ++i) {
+      if (i % share != 3) rays[2 * i + 1].w = -1;
+    }
+    const ReadyScene ready("builtin:spheres");
+    const auto expected = hits_of(ready, render::Traversal::threaded, rays);
+    EXPECT_GT(count_hits(expected), rays.size() / (20 * share));
+    expect_equal_to(expected, ready, rays);
+  }
+  Rays none = random_rays({-4, -1, -4}, {4, 4, 4}, 5000, 9);
+  for (size_t i = 1; i < none.size(); i += 2) none[i].w = -1;
+  const ReadyScene ready("builtin:spheres");
+  expect_equal_to(hits_of(ready, render::Traversal::threaded, none), ready, none);
 }
 
 TEST_F(Traversals, AgreeOnRaysThroughVerticesAndEdges) {

@@ -48,5 +48,21 @@ TEST(LeafBlocks, LeaveWhatIsNotOneRectangle) {
   EXPECT_EQ(found.blocks[0].x, 3u);
 }
 
+TEST(LeafBlocks, AreToldOfEverySixteenSlots) {
+  std::vector<glm::uvec2> slots;
+  add_chart(slots, 100, 9, 4, 4);
+  add_chart(slots, 50, 9, 4, 4);
+  slots[16 + 12] = {7, 9};  // a quad from elsewhere
+  add_chart(slots, 0, 0, 0, 0);
+  add_chart(slots, 7, 5, 2, 2);
+  slots.resize(3 * 16 + 4);
+  const std::vector<glm::uvec4> groups = sixteen_slots(slots);
+  ASSERT_EQ(groups.size(), 4u);
+  EXPECT_EQ(groups[0], glm::uvec4(1, 100, 9, 4 | 4 << 8));
+  EXPECT_EQ(groups[1], glm::uvec4(0));
+  EXPECT_EQ(groups[2], glm::uvec4(1, 0, 0, 0));
+  EXPECT_EQ(groups[3], glm::uvec4(1, 7, 5, 2 | 2 << 8));
+}
+
 }  // namespace
 }  // namespace lodestone::render
