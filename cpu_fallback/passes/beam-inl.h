@@ -208,6 +208,7 @@ HWY_ATTR HWY_FLATTEN inline uint64_t load_beam(Block& block, const TraceTree& tr
   beam.any_hit = block.any_hit();
   if (!common && block.instanced()) waiting &= block.same_root(first, lowest);
   const layout::BoxGrid& grid = tree.grid();
+  const float near_by = layout::max_component(grid.step) * 1024;  // a 64th of the object's size
   const layout::TileAxes axes = layout::make_tile_axes(slabs, grid);
   const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), least_size = hn::Set(d, 0x1p-40f);
   const auto nothing = hn::Set(d, -1.0f);
@@ -223,9 +224,9 @@ HWY_ATTR HWY_FLATTEN inline uint64_t load_beam(Block& block, const TraceTree& tr
       const float* quads = block.ray_quads(first + number);
       for (uint32_t i = 0; i < width; i += 2) hwy::Prefetch(quads + 8 * (beam_rays + i));  // the next block's
       const RayLanes rays = load_rays(quads);
-      const Mask goes = hn::And(
-          all_of(are_rays(rays), alike(rays, beam), bit_mask(d, waiting >> number)),
-          common ? from_one_origin(rays, beam.lead) : from_near_by(rays, beam.lead, tree.extent() / 64));
+      const Mask goes =
+          hn::And(all_of(are_rays(rays), alike(rays, beam), bit_mask(d, waiting >> number)),
+                  common ? from_one_origin(rays, beam.lead) : from_near_by(rays, beam.lead, near_by));
       going |= uint64_t(mask_bits(d, goes)) << number;
       const auto along = [&](Floats direction, int axis) HWY_ATTR {
         const auto size = hn::Div(one, hn::Max(hn::Abs(direction), least_size));
