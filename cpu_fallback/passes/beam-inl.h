@@ -457,7 +457,7 @@ HWY_ATTR inline uint32_t trace_beam(Block& block, const TraceTree& tree, Beam& b
         const uint32_t child = first_child + static_cast<uint32_t>(std::countr_zero(waiting));
         for (const auto& planes : tree.wide_node(std::min(child, end - 1)).planes) hwy::Prefetch(&planes);
       }
-      if (stack.descend(entered, end, record)) continue;
+      if (stack.descend_in_order(entered, end, record)) continue;
     }
     if (!stack.climb(beam.reach.tmax, end, record)) return visits;
   }
