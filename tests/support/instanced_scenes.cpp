@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lodestone/test_support/instanced_scenes.h"
 
+#include <array>
 #include <random>
 
 #include "lodestone/test_support/grid_sphere.h"
@@ -101,9 +102,11 @@ scene::Scene swarm(uint32_t count, float half) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(-1, 1);
   for (uint32_t i = 0; i < count; ++i) {
-    const glm::vec3 at(half * unit(random), half * unit(random), half * unit(random));
-    const glm::quat turn(unit(random) + 1.5f, unit(random), unit(random), unit(random));
-    add(scene, 0, at, turn, glm::vec3(0.25f + 0.1f * unit(random), 0.25f, 0.2f));
+    std::array<float, 8> drawn{};  // in the same order whatever the compiler
+    for (float& number : drawn) number = unit(random);
+    const glm::vec3 at(half * drawn[0], half * drawn[1], half * drawn[2]);
+    const glm::quat turn(drawn[3] + 1.5f, drawn[4], drawn[5], drawn[6]);
+    add(scene, 0, at, turn, glm::vec3(0.25f + 0.1f * drawn[7], 0.25f, 0.2f));
   }
   return scene;
 }
