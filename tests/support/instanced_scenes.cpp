@@ -104,8 +104,8 @@ scene::Scene swarm(uint32_t count, float half) {
   for (uint32_t i = 0; i < count; ++i) {
     std::array<float, 8> drawn{};  // in the same order whatever the compiler
     for (float& number : drawn) number = unit(random);
-    const glm::vec3 at(half * drawn[0], half * drawn[1], half * drawn[2]);
-    const glm::quat turn(drawn[3] + 1.5f, drawn[4], drawn[5], drawn[6]);
+    const glm::vec3 at(half * drawn[2], half * drawn[1], half * drawn[0]);
+    const glm::quat turn(drawn[6] + 1.5f, drawn[5], drawn[4], drawn[3]);
     add(scene, 0, at, turn, glm::vec3(0.25f + 0.1f * drawn[7], 0.25f, 0.2f));
   }
   return scene;
