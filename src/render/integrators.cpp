@@ -4,6 +4,7 @@
 #include "lodestone/layout/recursion.h"
 #include "lodestone/render/number_shares.h"
 #include "lodestone/render/passes.h"
+#include "lodestone/render/ray_list.h"
 #include "lodestone/render/renderer_state.h"
 
 namespace lodestone::render {
@@ -38,18 +39,12 @@ bool Renderer::State::add_unblocked(uint32_t count, uint32_t listed, bool scatte
 // rays any more. How many that are.
 uint32_t Renderer::State::list_paths(uint32_t count, bool listed) {
   std::swap(going_on, went_on);
-  const layout::ListPush push{count, layout::list_block(count)};
-  const auto run_stage = [&](uint32_t stage) {
-    run(passes::list_paths,
-        {primary.rays.id(), primary.hits.id(), primary.states.id(), primary.block_counts.id(),
-         primary.block_starts.id(), went_on.id(), going_on.id(), shadow.rays.id()},
-        push, list_blocks(push), {stage, layout::resume_nothing, 0, listed ? 1u : 0u, 1});
-  };
-  run_stage(layout::list_count);
-  run(passes::scan_paths, {primary.block_counts.id(), primary.block_starts.id(), going_on.id()},
-      layout::CountPush{list_blocks(push)}, 1);
-  run_stage(layout::list_place);
-  return counted();
+  const RayListing listing{
+      passes::list_paths, passes::scan_paths,     primary, count,       listed ? &went_on : nullptr,
+      going_on,           layout::resume_nothing, false,   &shadow.rays};
+  listing.find(backend);
+  listing.place(backend);
+  return listing.found(backend);
 }
 
 // Of every light, at what the rays have hit; `recursion`: see layout/recursion.h; `listed`: see

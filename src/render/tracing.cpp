@@ -12,6 +12,7 @@
 #include "lodestone/render/detail.h"
 #include "lodestone/render/leaf_blocks.h"
 #include "lodestone/render/passes.h"
+#include "lodestone/render/ray_list.h"
 #include "lodestone/render/scene_tables.h"
 
 namespace lodestone::render {
@@ -246,23 +247,20 @@ uint32_t Tracing::take_pending() {
 std::optional<uint32_t> Tracing::list_rays(const RayBuffers& rays, uint32_t count, const Round& round,
                                            const TraceQuery& query, std::optional<uint32_t> waiting) {
   if (waiting && !is_sparse(*waiting, count)) return {};
-  const layout::ListPush push{count, layout::list_block(count)};
-  const uint32_t blocks = list_blocks(push);
-  const auto run_stage = [&](uint32_t stage) {
-    run(query.shadow ? passes::occlude_list : passes::list_rays,
-        {rays.rays.id(), rays.hits.id(), rays.states.id(), rays.block_counts.id(), rays.block_starts.id(),
-         query.some != nullptr ? query.some->id() : rays.steps.id(), rays.list.id(), rays.states.id()},
-        push, blocks, {stage, round.resume, round.resumable ? 1u : 0u, query.some != nullptr ? 1u : 0u});
-  };
-  run_stage(layout::list_count);
-  run(query.shadow ? passes::occlude_scan : passes::scan_blocks,
-      {rays.block_counts.id(), rays.block_starts.id(), rays.list.id()}, layout::CountPush{blocks}, 1);
+  const RayListing listing{query.shadow ? passes::occlude_list : passes::list_rays,
+                           query.shadow ? passes::occlude_scan : passes::scan_blocks,
+                           rays,
+                           count,
+                           query.some,
+                           rays.list,
+                           round.resume,
+                           round.resumable};
+  listing.find(backend_);
   if (!waiting) {
-    waiting = 0;
-    backend_.download(rays.list.id(), std::as_writable_bytes(std::span(&*waiting, 1)), 0);
+    waiting = listing.found(backend_);
     if (!is_sparse(*waiting, count)) return {};
   }
-  run_stage(layout::list_place);
+  listing.place(backend_);
   return waiting;
 }
 
